@@ -1,0 +1,17 @@
+# PETSc (with hypre, MPI and libyaml), METIS, HDF5: nothing else at run time.
+find_package(MPI REQUIRED COMPONENTS C CXX)
+find_package(PkgConfig REQUIRED)
+
+# Debian keeps PETSc.pc beside the library, out of pkg-config's own path.
+file(GLOB petsc_pkgconfig /usr/lib/petscdir/petsc*/*-real/lib/pkgconfig $ENV{PETSC_DIR}/lib/pkgconfig)
+foreach(folder IN LISTS petsc_pkgconfig)
+  set(ENV{PKG_CONFIG_PATH} "$ENV{PKG_CONFIG_PATH}:${folder}")
+endforeach()
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.18)
+# The -D_FORTIFY_SOURCE of the packager's flags is not ours to pass on.
+set_property(TARGET PkgConfig::PETSC PROPERTY INTERFACE_COMPILE_OPTIONS "")
+
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_library(METIS_LIBRARY metis REQUIRED)
+find_path(METIS_INCLUDE_DIR metis.h REQUIRED)

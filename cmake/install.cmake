@@ -1,0 +1,1 @@
+# fsi::fsi for find_package(fsi) from outside.

@@ -1,0 +1,58 @@
+#pragma once
+// Errors: exceptions inside the library, codes at its rim. fsi::run (core/run.hpp) holds the only
+// catch and turns a kind into the exit code of the program.
+
+#include <petscsys.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace fsi {
+
+/// What went wrong, as the exit code a sweep script sees.
+enum class Kind : int {
+  input = 2,       ///< the user's options, mesh or files: names the culprit and the valid choices
+  numerics = 3,    ///< a solve failed or a field is not finite, after all retries
+  io = 4,          ///< a file could not be read or written
+  internal = 70,   ///< a library call failed or an assumption of the code does not hold
+};
+
+/// The one exception type: a sentence for the user and its kind.
+class Error : public std::runtime_error {
+ public:
+  Error(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  Kind kind() const noexcept { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+/// User input: throws Error{input} with `sentence` unless ok.
+inline void require(bool ok, const std::string& sentence) {
+  if (!ok) throw Error(Kind::input, sentence);
+}
+
+/// Throws Error{internal} that names the failed PETSc call.
+[[noreturn]] void petsc_failed(int code, const char* call, const char* file, int line);
+
+}  // namespace fsi
+
+/// Every PETSc call goes through here: a non-zero code becomes an exception.
+#define FSI_PETSC(...)                                                           \
+  do {                                                                           \
+    const PetscErrorCode fsi_code_ = __VA_ARGS__;                                \
+    if (fsi_code_ != 0) ::fsi::petsc_failed(fsi_code_, #__VA_ARGS__, __FILE__, __LINE__); \
+  } while (false)
+
+#ifdef NDEBUG
+#define FSI_ASSERT(condition) static_cast<void>(0)
+#else
+/// Programming error: checked in debug builds only.
+#define FSI_ASSERT(condition)                                                        \
+  do {                                                                               \
+    if (!(condition))                                                                \
+      throw ::fsi::Error(::fsi::Kind::internal, std::string(__FILE__) + ":" +        \
+                                                    std::to_string(__LINE__) +       \
+                                                    ": assertion failed: " #condition); \
+  } while (false)
+#endif

@@ -1,0 +1,61 @@
+#pragma once
+// The options of a run: typed, ranged, documented where they are read, and never silently ignored.
+
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// What -help prints and what a value must satisfy.
+struct Spec {
+  std::string help;
+  std::string unit;                                       ///< e.g. "mass / (length time)"; "" where none
+  Real min = -std::numeric_limits<Real>::infinity();
+  Real max = std::numeric_limits<Real>::infinity();
+  bool positive = false;                                  ///< strictly > 0
+};
+
+/// Reads options by name (without the dash) from PETSc's database: command line, YAML file,
+/// PETSC_OPTIONS. Every reader records name, resolved value and spec; with -help it prints them.
+/// Errors: Error{input} naming the option, the value found and the valid ones, for NaN, infinity, out
+/// of range, a wrong type, a missing value, a list of wrong length. All ranks throw alike.
+class Options {
+ public:
+  /// `program` and `purpose` head the -help text.
+  Options(std::string program, std::string purpose);
+
+  Real real(const std::string& name, Real fallback, const Spec& spec);
+  int integer(const std::string& name, int fallback, const Spec& spec);
+  bool flag(const std::string& name, bool fallback, const std::string& help);
+  std::string text(const std::string& name, const std::string& fallback, const std::string& help);
+  std::string choice(const std::string& name, const std::string& fallback,
+                     const std::vector<std::string>& valid, const std::string& help);
+  Vec3 vec3(const std::string& name, const Vec3& fallback, const Spec& spec);
+  std::vector<std::string> list(const std::string& name, const std::string& help);
+  /// Whether the user gave this option.
+  bool given(const std::string& name) const;
+
+  /// True when the user asked for -help: the driver reads its options, then ends.
+  bool help() const { return help_; }
+  /// Unknown options of ours and of PETSc: Error{input} naming each with its nearest valid name.
+  /// Call before the first step for names nobody can read, and after it for solver options.
+  void check_unknown() const;
+  void check_unused() const;
+  /// Every option as resolved, as YAML that repeats the run.
+  std::string yaml() const;
+
+ private:
+  struct Entry {
+    std::string name, value, help;
+  };
+  const Entry& record(Entry entry);
+  std::string program_;
+  std::vector<Entry> entries_;
+  bool help_ = false;
+};
+
+}  // namespace fsi

@@ -1,0 +1,71 @@
+#include "libfsi/core/parallel.hpp"
+
+#include <petscsys.h>
+
+#include <vector>
+
+namespace fsi {
+namespace {
+
+template <class T>
+T reduced(T value, MPI_Datatype type, MPI_Op op) {
+  T result{};
+  MPI_Allreduce(&value, &result, 1, type, op, comm());
+  return result;
+}
+
+}  // namespace
+
+MPI_Comm comm() { return PETSC_COMM_WORLD; }
+
+int rank() {
+  int r = 0;
+  MPI_Comm_rank(comm(), &r);
+  return r;
+}
+
+int ranks() {
+  int n = 1;
+  MPI_Comm_size(comm(), &n);
+  return n;
+}
+
+Real global_min(Real value) { return reduced(value, MPI_DOUBLE, MPI_MIN); }
+Real global_max(Real value) { return reduced(value, MPI_DOUBLE, MPI_MAX); }
+GlobalIndex global_sum(GlobalIndex value) { return reduced(value, MPI_INT64_T, MPI_SUM); }
+bool all_of_ranks(bool holds) { return reduced(holds ? 1 : 0, MPI_INT, MPI_MIN) == 1; }
+
+Real exact_sum(std::span<const Real> items) {
+  Sum sum;
+  for (const Real item : items) sum.add(item);
+  return sum.total();
+}
+
+Real Sum::total() const {
+  Real result = 0;
+  totals({&result, 1}, {this, 1});
+  return result;
+}
+
+void Sum::totals(std::span<Real> items, std::span<const Sum> parts) {
+  const std::size_t n = parts.size();
+  std::vector<Real> mine(2 * n), all(2 * n * static_cast<std::size_t>(ranks()));
+  for (std::size_t i = 0; i < n; ++i) mine[2 * i] = parts[i].high_, mine[2 * i + 1] = parts[i].low_;
+  const int count = static_cast<int>(2 * n);
+  MPI_Allgather(mine.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, comm());
+  for (std::size_t i = 0; i < n; ++i) {
+    Sum sum;
+    for (std::size_t r = 0; r < all.size(); r += 2 * n) sum.add(all[r + 2 * i]), sum.low_ += all[r + 2 * i + 1];
+    items[i] = sum.high_ + sum.low_;
+  }
+}
+
+std::string broadcast(std::string text, int root) {
+  auto size = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, root, comm());
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, root, comm());
+  return text;
+}
+
+}  // namespace fsi

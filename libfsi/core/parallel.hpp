@@ -1,0 +1,49 @@
+#pragma once
+// Values that all ranks share: sums, extremes, agreement. Every function is collective.
+
+#include <mpi.h>
+
+#include <span>
+#include <string>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// The communicator of the run (PETSC_COMM_WORLD).
+MPI_Comm comm();
+int rank();
+int ranks();
+
+Real global_min(Real value);
+Real global_max(Real value);
+GlobalIndex global_sum(GlobalIndex value);
+/// True where it holds on every rank.
+bool all_of_ranks(bool holds);
+
+/// Sum over all ranks of all items, carried in twice the working precision: the result does not
+/// depend on the number of ranks beyond the last bit.
+Real exact_sum(std::span<const Real> items);
+
+/// The same, built term by term in a kernel: add() in any order, then total().
+class Sum {
+ public:
+  /// Error-free addition [Knuth] two-sum.
+  void add(Real value) {
+    const Real s = high_ + value, b = s - high_;
+    low_ += (high_ - (s - b)) + (value - b);
+    high_ = s;
+  }
+  /// Collective. The sum over all ranks.
+  Real total() const;
+  /// Collective. Several sums in one exchange: items[i] becomes the total of parts[i].
+  static void totals(std::span<Real> items, std::span<const Sum> parts);
+
+ private:
+  Real high_ = 0, low_ = 0;
+};
+
+/// Rank `root`'s text on every rank.
+std::string broadcast(std::string text, int root = 0);
+
+}  // namespace fsi

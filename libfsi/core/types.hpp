@@ -1,0 +1,114 @@
+#pragma once
+// Scalars, vectors and tensors of the library: plain aggregates that live in flat arrays.
+
+#include <cmath>
+#include <cstdint>
+
+namespace fsi {
+
+using Real = double;
+using Index = std::int32_t;         ///< local cell, face or point number
+using GlobalIndex = std::int64_t;   ///< number that is the same on any count of ranks
+
+/// A vector (x, y, z); z = 0 in a 2-D run.
+struct Vec3 {
+  Real x = 0, y = 0, z = 0;
+
+  constexpr Real& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr Real operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
+  constexpr Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
+  constexpr Vec3& operator*=(Real s) { return x *= s, y *= s, z *= s, *this; }
+  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vec3 operator*(Real s, Vec3 a) { return a *= s; }
+constexpr Vec3 operator*(Vec3 a, Real s) { return a *= s; }
+constexpr Vec3 operator/(Vec3 a, Real s) { return a *= 1 / s; }
+constexpr Real dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr Real norm2(const Vec3& a) { return dot(a, a); }
+inline Real norm(const Vec3& a) { return std::sqrt(norm2(a)); }
+
+/// A full tensor, row by row: `L.xy` is row x, column y; for the velocity gradient L.xy = du_x/dy.
+struct Tensor {
+  Real xx = 0, xy = 0, xz = 0, yx = 0, yy = 0, yz = 0, zx = 0, zy = 0, zz = 0;
+
+  constexpr Tensor& operator+=(const Tensor& b) {
+    xx += b.xx, xy += b.xy, xz += b.xz, yx += b.yx, yy += b.yy, yz += b.yz;
+    zx += b.zx, zy += b.zy, zz += b.zz;
+    return *this;
+  }
+  constexpr Tensor& operator*=(Real s) {
+    xx *= s, xy *= s, xz *= s, yx *= s, yy *= s, yz *= s, zx *= s, zy *= s, zz *= s;
+    return *this;
+  }
+  friend constexpr bool operator==(const Tensor&, const Tensor&) = default;
+};
+
+constexpr Tensor operator+(Tensor a, const Tensor& b) { return a += b; }
+constexpr Tensor operator*(Real s, Tensor a) { return a *= s; }
+/// (a b)_ij = a_i b_j.
+constexpr Tensor outer(const Vec3& a, const Vec3& b) {
+  return {a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y,
+          a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z};
+}
+constexpr Vec3 dot(const Tensor& t, const Vec3& a) {
+  return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.yx * a.x + t.yy * a.y + t.yz * a.z,
+          t.zx * a.x + t.zy * a.y + t.zz * a.z};
+}
+constexpr Tensor transpose(const Tensor& t) {
+  return {t.xx, t.yx, t.zx, t.xy, t.yy, t.zy, t.xz, t.yz, t.zz};
+}
+constexpr Real trace(const Tensor& t) { return t.xx + t.yy + t.zz; }
+
+/// A symmetric tensor, upper triangle.
+struct SymTensor {
+  Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  constexpr SymTensor& operator+=(const SymTensor& b) {
+    xx += b.xx, xy += b.xy, xz += b.xz, yy += b.yy, yz += b.yz, zz += b.zz;
+    return *this;
+  }
+  constexpr SymTensor& operator-=(const SymTensor& b) {
+    xx -= b.xx, xy -= b.xy, xz -= b.xz, yy -= b.yy, yz -= b.yz, zz -= b.zz;
+    return *this;
+  }
+  constexpr SymTensor& operator*=(Real s) {
+    xx *= s, xy *= s, xz *= s, yy *= s, yz *= s, zz *= s;
+    return *this;
+  }
+  friend constexpr bool operator==(const SymTensor&, const SymTensor&) = default;
+};
+
+constexpr SymTensor operator+(SymTensor a, const SymTensor& b) { return a += b; }
+constexpr SymTensor operator-(SymTensor a, const SymTensor& b) { return a -= b; }
+constexpr SymTensor operator*(Real s, SymTensor a) { return a *= s; }
+constexpr Vec3 dot(const SymTensor& t, const Vec3& a) {
+  return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.xy * a.x + t.yy * a.y + t.yz * a.z,
+          t.xz * a.x + t.yz * a.y + t.zz * a.z};
+}
+constexpr Real trace(const SymTensor& t) { return t.xx + t.yy + t.zz; }
+constexpr Real det(const SymTensor& t) {
+  return t.xx * (t.yy * t.zz - t.yz * t.yz) - t.xy * (t.xy * t.zz - t.yz * t.xz) +
+         t.xz * (t.xy * t.yz - t.yy * t.xz);
+}
+/// Deviator a - (tr a / 3) I.
+constexpr SymTensor dev(SymTensor t) {
+  const Real m = trace(t) / 3;
+  t.xx -= m, t.yy -= m, t.zz -= m;
+  return t;
+}
+/// The unit tensor.
+constexpr SymTensor identity() { return {1, 0, 0, 1, 0, 1}; }
+
+/// Count of Reals in a field's value type: Real 1, Vec3 3, SymTensor 6, Tensor 9.
+template <class T>
+inline constexpr int components = static_cast<int>(sizeof(T) / sizeof(Real));
+
+}  // namespace fsi

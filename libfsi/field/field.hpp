@@ -1,0 +1,66 @@
+#pragma once
+// Fields: one value a cell, a face or a boundary face, in flat arrays.
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+#include "libfsi/mesh/mesh.hpp"
+
+namespace fsi {
+
+/// Where the values of a field live.
+enum class On {
+  cells,     ///< [n_cells]: the owned part first (it can be the storage of a PETSc Vec), then the halo
+  faces,     ///< [n_faces]: internal faces, then the boundary
+  boundary,  ///< [n_boundary]: item f - n_internal belongs to face f
+};
+
+/// A flat array with a value per mesh entity; moved, never copied by accident (copy with assign).
+/// Invariant: its size is the count of those entities.
+template <class T, On on>
+class Field {
+ public:
+  using value_type = T;
+
+  explicit Field(const Mesh& mesh, const T& value = {})
+      : values_(static_cast<std::size_t>(count(mesh)), value), n_owned_(mesh.n_owned) {}
+  Field(Field&&) noexcept = default;
+  Field& operator=(Field&&) noexcept = default;
+  Field(const Field&) = delete;
+  Field& operator=(const Field&) = delete;
+  ~Field() = default;
+
+  T& operator[](Index i) { return values_[static_cast<std::size_t>(i)]; }
+  const T& operator[](Index i) const { return values_[static_cast<std::size_t>(i)]; }
+  T* data() { return values_.data(); }
+  const T* data() const { return values_.data(); }
+  Index size() const { return static_cast<Index>(values_.size()); }
+  std::span<T> all() { return values_; }
+  std::span<const T> all() const { return values_; }
+  /// The values of this rank's own cells.
+  std::span<T> owned() requires(on == On::cells) { return all().first(n_owned_); }
+  std::span<const T> owned() const requires(on == On::cells) { return all().first(n_owned_); }
+
+  void fill(const T& value) { std::fill(values_.begin(), values_.end(), value); }
+  void assign(const Field& other) { std::ranges::copy(other.values_, values_.begin()); }
+  void swap(Field& other) noexcept { values_.swap(other.values_); }
+
+ private:
+  static Index count(const Mesh& mesh) {
+    return on == On::cells ? mesh.n_cells : on == On::faces ? mesh.n_faces : mesh.n_boundary();
+  }
+  std::vector<T> values_;
+  std::size_t n_owned_;
+};
+
+template <class T>
+using CellField = Field<T, On::cells>;
+template <class T>
+using FaceField = Field<T, On::faces>;
+template <class T>
+using BoundaryField = Field<T, On::boundary>;
+
+}  // namespace fsi

@@ -1,0 +1,43 @@
+#pragma once
+// Copies of a neighbour rank's cells, refreshed by one exchange.
+
+#include <span>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// The exchange that fills the halo part [n_owned, n_cells) of a cell array from the owners.
+/// Invariant: send and receive lists of all ranks match. One rank: every update is free.
+class Halo {
+ public:
+  Halo() = default;
+  /// Collective. halo_owner[i], halo_owner_cell[i]: owning rank and its local cell number for local
+  /// cell n_owned + i.
+  Halo(Index n_owned, std::span<const int> halo_owner, std::span<const Index> halo_owner_cell);
+  ~Halo();
+  Halo(Halo&&) noexcept;
+  Halo& operator=(Halo&&) noexcept;
+  Halo(const Halo&) = delete;
+  Halo& operator=(const Halo&) = delete;
+
+  /// Collective. `values` holds n_cells items of `width` Reals, cell by cell.
+  /// On return the halo part equals the owners' values, bit for bit.
+  void update(Real* values, int width) const;
+
+  /// The same for any field of Real, Vec3, SymTensor or Tensor.
+  template <class Field>
+  void update(Field& field) const {
+    update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>);
+  }
+
+  /// Collective. The reverse: adds every halo copy's value to the owner's cell; halo part unchanged.
+  void add_to_owner(Real* values, int width) const;
+
+ private:
+  void* sf_ = nullptr;  // PetscSF
+  Index n_owned_ = 0;
+};
+
+}  // namespace fsi

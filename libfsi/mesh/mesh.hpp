@@ -1,0 +1,87 @@
+#pragma once
+// The mesh as kernels see it: flat arrays, filled once, never changed.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+#include "libfsi/mesh/halo.hpp"
+
+namespace fsi {
+
+/// Rows of indices: row i is index[offset[i]] .. index[offset[i + 1]].
+struct Csr {
+  std::vector<Index> offset{0};
+  std::vector<Index> index;
+
+  Index rows() const { return static_cast<Index>(offset.size()) - 1; }
+  std::span<const Index> operator[](Index i) const {
+    return {index.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
+  }
+};
+
+/// Boundary faces [begin, end) that carry one physical name. On a rank without such faces the patch
+/// is there and empty: every rank holds the same names in the same order.
+struct Patch {
+  std::string name;
+  Index begin = 0, end = 0;
+};
+
+/// One rank's part of the mesh.
+///
+/// Cells: [0, n_owned) owned, [n_owned, n_cells) halo (all cells that share a vertex with an owned
+/// one). Both parts are sorted by global_id, which does not depend on the number of ranks.
+/// Faces: every face of an owned cell, and no other. [0, n_internal) internal, then the boundary
+/// faces patch by patch. The owner P of an internal face is the cell with the lower global_id, so
+/// orientation is the same on all ranks; either cell may be a halo cell. Faces are sorted by
+/// (global_id of owner, of neighbour).
+/// Periodic pairs are internal faces; only `d`, `shift` and `translation` know of it.
+/// 2-D: cells are polygons in the plane z = 0, V is an area, faces are edges, |Sf| a length.
+struct Mesh {
+  int dim = 3;
+  Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;
+  GlobalIndex n_global = 0;             ///< cells of all ranks
+
+  // faces
+  std::vector<Index> owner;             ///< [n_faces] P
+  std::vector<Index> neighbour;         ///< [n_internal] N
+  std::vector<Vec3> Sf;                 ///< [n_faces] area vector, from P to N or outward
+  std::vector<Vec3> Cf;                 ///< [n_faces] centroid, in the frame of P
+  std::vector<Vec3> d;                  ///< [n_faces] C_N - C_P (image of N next to P); boundary: Cf - C_P
+  std::vector<Index> shift;             ///< [n_internal] row of `translation`: N is seen from P at C[N] + translation[shift]
+  Csr face_points;                      ///< [n_faces] corners in order, right-handed about Sf (2-D: the two ends), frame of P
+  std::vector<Patch> patches;           ///< cover [n_internal, n_faces)
+
+  // cells
+  std::vector<Vec3> C;                  ///< [n_cells] centroid
+  std::vector<Real> V;                  ///< [n_cells] volume, area in 2-D
+  std::vector<GlobalIndex> global_id;   ///< [n_cells] position of the cell in the mesh file, from 0
+  Csr cell_faces;                       ///< [n_owned] faces of the cell, ascending
+  Csr cell_neighbours;                  ///< [n_owned] cells that share a vertex, itself excluded, sorted by (global_id, shift)
+  std::vector<std::int8_t> cell_neighbour_shift;  ///< beside cell_neighbours.index: that cell is seen at C[n] + translation[shift]
+
+  // points
+  std::vector<Vec3> points;
+  std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
+
+  Halo halo;
+  Real total_volume = 0;                ///< of all ranks
+  std::uint64_t hash = 0;               ///< of the mesh as read; a checkpoint of another mesh is refused
+
+  Index n_boundary() const { return n_faces - n_internal; }
+
+  /// Corner i of face f as seen from cell c (its owner, or its neighbour across a period).
+  Vec3 corner(Index f, Index i, Index c) const {
+    const Vec3 x = points[face_points.index[face_points.offset[f] + i]];
+    return f >= n_internal || owner[f] == c ? x : x - translation[shift[f]];
+  }
+  /// The same for the centroid of face f.
+  Vec3 face_centre(Index f, Index c) const {
+    return f >= n_internal || owner[f] == c ? Cf[f] : Cf[f] - translation[shift[f]];
+  }
+  /// The patch of that name; throws Error{input} that lists the names of the mesh.
+  const Patch& patch(const std::string& name) const;
+};
+
+}  // namespace fsi
