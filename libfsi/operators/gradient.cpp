@@ -1,0 +1,113 @@
+#include "libfsi/operators/gradient.hpp"
+
+#include <cmath>
+
+namespace fsi {
+namespace {
+
+Real det(const Tensor& m) {
+  return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
+         m.xz * (m.yx * m.zy - m.yy * m.zx);
+}
+
+/// Inverse by cofactors.
+Tensor inverse(const Tensor& m) {
+  const Real s = 1 / det(m);
+  return {s * (m.yy * m.zz - m.yz * m.zy), s * (m.xz * m.zy - m.xy * m.zz),
+          s * (m.xy * m.yz - m.xz * m.yy), s * (m.yz * m.zx - m.yx * m.zz),
+          s * (m.xx * m.zz - m.xz * m.zx), s * (m.xz * m.yx - m.xx * m.yz),
+          s * (m.yx * m.zy - m.yy * m.zx), s * (m.xy * m.zx - m.xx * m.zy),
+          s * (m.xx * m.yy - m.xy * m.yx)};
+}
+
+void add_to(Vec3& grad, Real dq, const Vec3& g) { grad += dq * g; }
+void add_to(Tensor& grad, const Vec3& dq, const Vec3& g) { grad += outer(dq, g); }
+
+template <class Grad, class T>
+void gradient_of(CellField<Grad>& grad, const CellField<T>& q, const BoundaryField<T>& q_b,
+                 const GradientStencil& stencil, const Mesh& mesh) {
+  grad.fill(Grad{});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const T dq = q[N] - q[P];
+    add_to(grad[P], dq, stencil.owner[f]);
+    add_to(grad[N], -dq, stencil.neighbour[f]);
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f];
+    add_to(grad[P], q_b[f - mesh.n_internal] - q[P], stencil.owner[f]);
+  }
+  mesh.halo.update(grad);
+}
+
+}  // namespace
+
+GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights,
+                                 const std::vector<bool>& has_value)
+    : owner(static_cast<std::size_t>(mesh.n_faces)),
+      neighbour(static_cast<std::size_t>(mesh.n_internal)) {
+  // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d:
+  // the gradient along the normal taken as zero there.
+  std::vector<Tensor> M(static_cast<std::size_t>(mesh.n_cells)), fallback(M.size());
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    owner[f] = weights.lambda[f] / mesh.V[P] * mesh.Sf[f];
+    neighbour[f] = -(1 - weights.lambda[f]) / mesh.V[N] * mesh.Sf[f];
+    M[P] += outer(owner[f], mesh.d[f]);
+    M[N] += outer(neighbour[f], -mesh.d[f]);
+  }
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i)
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      const Index P = mesh.owner[f];
+      const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f];
+      if (has_value[i]) {
+        owner[f] = g0;
+        M[P] += outer(g0, mesh.d[f]);
+      } else {
+        const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+        fallback[P] += outer(g0, mesh.d[f] - dot(mesh.d[f], n) * n);
+      }
+    }
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (mesh.dim == 2) M[c].zz = 1;
+    // A corner cell has too few neighbours for a linear fit when det M vanishes (1 on a good cell).
+    if (std::abs(det(M[c])) < 0.05) {
+      M[c] = -1.0 * fallback[c];
+      M[c].xx += 1, M[c].yy += 1, M[c].zz += 1;
+    }
+    M[c] = inverse(M[c]);
+  }
+  for (Index f = 0; f < mesh.n_faces; ++f) {
+    if (mesh.owner[f] < mesh.n_owned) owner[f] = dot(M[mesh.owner[f]], owner[f]);
+    if (f < mesh.n_internal && mesh.neighbour[f] < mesh.n_owned)
+      neighbour[f] = dot(M[mesh.neighbour[f]], neighbour[f]);
+  }
+}
+
+void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryField<Real>& q_b,
+              const GradientStencil& stencil, const Mesh& mesh) {
+  gradient_of(grad, q, q_b, stencil, mesh);
+}
+
+void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+              const GradientStencil& stencil, const Mesh& mesh) {
+  gradient_of(L, u, u_b, stencil, mesh);
+}
+
+void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells) {
+  for (const Index c : cells) {
+    Tensor sum;
+    for (const Index f : mesh.cell_faces[c]) {
+      if (f >= mesh.n_internal)
+        sum += outer(u_b[f - mesh.n_internal] - u[c], stencil.owner[f]);
+      else if (mesh.owner[f] == c)
+        sum += outer(u[mesh.neighbour[f]] - u[c], stencil.owner[f]);
+      else
+        sum += outer(u[mesh.owner[f]] - u[c], stencil.neighbour[f]);
+    }
+    L[c] = sum;
+  }
+}
+
+}  // namespace fsi

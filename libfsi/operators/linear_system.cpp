@@ -1,0 +1,172 @@
+#include "libfsi/operators/linear_system.hpp"
+
+#include <petscksp.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+
+struct LinearSystem::Handles {
+  const Mesh& mesh;
+  std::string name;
+  bool pinned = false;       ///< direct and singular: one diagonal entry is doubled
+  bool null_space = false;
+  Real relative_tolerance = 0;
+  Mat matrix = nullptr;
+  KSP solver = nullptr;
+  Vec x = nullptr, b = nullptr;
+  std::vector<PetscScalar> values;
+  std::vector<std::pair<Index, Index>> rows;  // (face, row's cell) of every off-diagonal entry
+
+  explicit Handles(const Mesh& m) : mesh(m) {}
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+  ~Handles() {
+    // Nothing useful can be done with a code here, and a destructor must not throw.
+    static_cast<void>(KSPDestroy(&solver));   // layers: destructor
+    static_cast<void>(MatDestroy(&matrix));   // layers: destructor
+    static_cast<void>(VecDestroy(&x));        // layers: destructor
+    static_cast<void>(VecDestroy(&b));        // layers: destructor
+  }
+};
+
+namespace {
+
+/// Puts an option into the database unless the user did.
+void prefer(const std::string& prefix, const std::string& option, const char* value) {
+  const std::string name = "-" + prefix + option;
+  PetscBool given = PETSC_FALSE;
+  FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &given));
+  if (given == PETSC_FALSE) FSI_PETSC(PetscOptionsSetValue(nullptr, name.c_str(), value));
+}
+
+/// Global row of every local cell, halo included.
+std::vector<PetscInt> global_rows(const Mesh& mesh) {
+  GlobalIndex before = 0, mine = mesh.n_owned;
+  MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, comm());
+  if (rank() == 0) before = 0;
+  std::vector<Real> number(static_cast<std::size_t>(mesh.n_cells));
+  for (Index c = 0; c < mesh.n_owned; ++c) number[c] = static_cast<Real>(before + c);
+  mesh.halo.update(number.data(), 1);
+  return {number.begin(), number.end()};
+}
+
+void set_defaults(const std::string& prefix, Method method, KSP solver) {
+  FSI_PETSC(KSPSetType(solver, KSPCG));
+  FSI_PETSC(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
+  FSI_PETSC(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
+  PC pc = nullptr;
+  FSI_PETSC(KSPGetPC(solver, &pc));
+  switch (method) {
+    case Method::multigrid:
+      FSI_PETSC(PCSetType(pc, PCHYPRE));
+      FSI_PETSC(PCHYPRESetType(pc, "boomeramg"));
+      prefer(prefix, "pc_hypre_boomeramg_coarsen_type", "HMIS");
+      prefer(prefix, "pc_hypre_boomeramg_interp_type", "ext+i");
+      prefer(prefix, "pc_hypre_boomeramg_P_max", "4");
+      prefer(prefix, "pc_hypre_boomeramg_strong_threshold", "0.25");
+      prefer(prefix, "pc_hypre_boomeramg_agg_nl", "1");
+      prefer(prefix, "pc_hypre_boomeramg_relax_type_all", "Chebyshev");
+      break;
+    case Method::direct:
+      FSI_PETSC(PCSetType(pc, PCCHOLESKY));
+      if (ranks() > 1) FSI_PETSC(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+      FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
+      break;
+    case Method::jacobi:
+      FSI_PETSC(PCSetType(pc, PCJACOBI));
+      break;
+  }
+}
+
+}  // namespace
+
+LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method method, bool singular,
+                           Real relative_tolerance)
+    : handles_(std::make_unique<Handles>(mesh)) {
+  Handles& h = *handles_;
+  h.name = name;
+  h.pinned = singular && method == Method::direct;
+  h.null_space = singular && !h.pinned;
+  h.relative_tolerance = relative_tolerance;
+
+  const std::vector<PetscInt> row = global_rows(mesh);
+  std::vector<PetscInt> i(row.begin(), row.begin() + mesh.n_owned), j = i;
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    for (const auto& [c, other] : {std::pair{mesh.owner[f], mesh.neighbour[f]},
+                                   std::pair{mesh.neighbour[f], mesh.owner[f]}})
+      if (c < mesh.n_owned) {
+        i.push_back(row[c]), j.push_back(row[other]);
+        h.rows.emplace_back(f, c);
+      }
+  h.values.resize(i.size());
+
+  FSI_PETSC(MatCreate(comm(), &h.matrix));
+  FSI_PETSC(MatSetSizes(h.matrix, mesh.n_owned, mesh.n_owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  FSI_PETSC(MatSetType(h.matrix, MATAIJ));
+  FSI_PETSC(MatSetPreallocationCOO(h.matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+  FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  FSI_PETSC(MatSetOption(h.matrix, MAT_SPD, PETSC_TRUE));
+  if (h.null_space) {
+    MatNullSpace constant = nullptr;
+    FSI_PETSC(MatNullSpaceCreate(comm(), PETSC_TRUE, 0, nullptr, &constant));
+    FSI_PETSC(MatSetNullSpace(h.matrix, constant));
+    FSI_PETSC(MatNullSpaceDestroy(&constant));
+  }
+  FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.x));
+  FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.b));
+  FSI_PETSC(KSPCreate(comm(), &h.solver));
+  FSI_PETSC(KSPSetOptionsPrefix(h.solver, (name + "_").c_str()));
+  FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
+  set_defaults(name + "_", method, h.solver);
+  FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+  FSI_PETSC(KSPSetFromOptions(h.solver));
+}
+
+LinearSystem::~LinearSystem() = default;
+LinearSystem::LinearSystem(LinearSystem&&) noexcept = default;
+LinearSystem& LinearSystem::operator=(LinearSystem&&) noexcept = default;
+
+void LinearSystem::assemble(const FaceMatrix& matrix) {
+  Handles& h = *handles_;
+  const std::size_t n = matrix.diagonal.size();
+  std::copy(matrix.diagonal.begin(), matrix.diagonal.end(), h.values.begin());
+  // A pinned singular system with a right-hand side of zero sum has the solution that vanishes in
+  // the pinned cell: summing all rows leaves a_00 x_0 = 0.
+  if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
+  for (std::size_t e = 0; e < h.rows.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.rows[e].first];
+  FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
+}
+
+Solve LinearSystem::solve(CellField<Real>& x, std::span<const Real> b, Real absolute) {
+  Handles& h = *handles_;
+  FSI_PETSC(VecPlaceArray(h.x, x.data()));
+  FSI_PETSC(VecPlaceArray(h.b, b.data()));
+  PetscReal rtol = 0, divergence = 0;
+  PetscInt its = 0, most = 0;
+  FSI_PETSC(KSPGetTolerances(h.solver, &rtol, nullptr, &divergence, &most));
+  FSI_PETSC(KSPSetTolerances(h.solver, rtol, std::max(absolute, 1e-300), divergence, most));
+  FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  Solve result;
+  FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
+  FSI_PETSC(KSPGetIterationNumber(h.solver, &its));
+  FSI_PETSC(KSPGetResidualNorm(h.solver, &result.residual));
+  FSI_PETSC(VecResetArray(h.x));
+  FSI_PETSC(VecResetArray(h.b));
+  result.iterations = static_cast<int>(its);
+  if (reason < 0)
+    throw Error(Kind::numerics, "system \"" + h.name + "\" did not converge: " +
+                                    KSPConvergedReasons[reason] + " after " + std::to_string(its) +
+                                    " iterations");
+  h.mesh.halo.update(x);
+  return result;
+}
+
+}  // namespace fsi

@@ -1,0 +1,58 @@
+#pragma once
+// A symmetric sparse system on the cells and its Krylov solver.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+#include "libfsi/field/field.hpp"
+
+namespace fsi {
+
+/// A symmetric matrix on the cell graph: one diagonal value a cell, one coefficient a face.
+struct FaceMatrix {
+  explicit FaceMatrix(const Mesh& mesh)
+      : diagonal(static_cast<std::size_t>(mesh.n_owned)),
+        off_diagonal(static_cast<std::size_t>(mesh.n_internal)) {}
+  std::vector<Real> diagonal;      ///< [n_owned]
+  std::vector<Real> off_diagonal;  ///< [n_internal] a_PN = a_NP
+};
+
+/// How a system is solved unless options with its prefix say otherwise.
+enum class Method {
+  multigrid,  ///< conjugate gradients with BoomerAMG; for a constant matrix of Laplacian kind
+  direct,     ///< Cholesky factors, kept; for a constant matrix of a small 2-D mesh
+  jacobi,     ///< conjugate gradients with the diagonal; for a matrix close to its diagonal
+};
+
+/// What a solve took.
+struct Solve {
+  int iterations = 0;
+  Real residual = 0;  ///< norm at the end, as the solver measures it
+};
+
+/// Mat + KSP. The name is the option prefix: "p" reads -p_ksp_type and so on.
+class LinearSystem {
+ public:
+  /// Collective. singular: the constant is the null space; the right-hand side must sum to zero.
+  LinearSystem(const Mesh& mesh, const std::string& name, Method method, bool singular,
+               Real relative_tolerance);
+  ~LinearSystem();
+  LinearSystem(LinearSystem&&) noexcept;
+  LinearSystem& operator=(LinearSystem&&) noexcept;
+
+  /// Collective. Sets the values; the preconditioner is renewed at the next solve.
+  void assemble(const FaceMatrix& matrix);
+  /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
+  /// Iterates until |r| <= max(relative_tolerance |b|, absolute).
+  /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
+  Solve solve(CellField<Real>& x, std::span<const Real> b, Real absolute = 0);
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace fsi
