@@ -1,4 +1,5 @@
 # PETSc (with hypre, MPI and libyaml), METIS, HDF5: nothing else at run time.
+# The installed fsiConfig.cmake reads this file too.
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(PkgConfig REQUIRED)
 
@@ -7,11 +8,19 @@ file(GLOB petsc_pkgconfig /usr/lib/petscdir/petsc*/*-real/lib/pkgconfig $ENV{PET
 foreach(folder IN LISTS petsc_pkgconfig)
   set(ENV{PKG_CONFIG_PATH} "$ENV{PKG_CONFIG_PATH}:${folder}")
 endforeach()
-pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.18)
-# The -D_FORTIFY_SOURCE of the packager's flags is not ours to pass on.
-set_property(TARGET PkgConfig::PETSC PROPERTY INTERFACE_COMPILE_OPTIONS "")
+if(NOT TARGET PkgConfig::PETSC)
+  pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.18)
+  # The -D_FORTIFY_SOURCE of the packager's flags is not ours to pass on.
+  set_property(TARGET PkgConfig::PETSC PROPERTY INTERFACE_COMPILE_OPTIONS "")
+endif()
 
 set(HDF5_PREFER_PARALLEL ON)
 find_package(HDF5 REQUIRED COMPONENTS C)
+
 find_library(METIS_LIBRARY metis REQUIRED)
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
+if(NOT TARGET METIS::METIS)
+  add_library(METIS::METIS UNKNOWN IMPORTED)
+  set_target_properties(METIS::METIS PROPERTIES IMPORTED_LOCATION "${METIS_LIBRARY}"
+                                                INTERFACE_INCLUDE_DIRECTORIES "${METIS_INCLUDE_DIR}")
+endif()

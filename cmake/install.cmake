@@ -1,1 +1,0 @@
-# fsi::fsi for find_package(fsi) from outside.
