@@ -1,0 +1,22 @@
+#pragma once
+// Eigenvalues and eigenvectors of a symmetric 3x3 tensor.
+
+#include <array>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// t . vector[i] = value[i] vector[i], value[0] <= value[1] <= value[2]; the vectors are a
+/// right-handed orthonormal frame.
+struct Eigen {
+  std::array<Real, 3> value{};
+  std::array<Vec3, 3> vector{};
+};
+
+/// Cyclic Jacobi rotations [GolubVanLoan13] 8.5: residual and orthogonality to a few units of
+/// round-off of |t|, for repeated and nearly equal eigenvalues too. A tensor that is already
+/// diagonal costs only the ordering; a non-finite one gives non-finite values.
+Eigen eigen(const SymTensor& t);
+
+}  // namespace fsi
