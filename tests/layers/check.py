@@ -136,7 +136,7 @@ def check_length(code, begin, end):
 
 
 def check_classes(code):
-    bases = re.compile(r"(?<!enum )\b(?:class|struct)\s+\w+(?:\s+final)?\s*:\s*([^{;]+)\{")
+    bases = re.compile(r"(?<!enum )\b(?:class|struct)\s+\w+(?:\s+final)?\s*:(?!:)\s*([^{;]+)\{")
     for match in bases.finditer(code):
         if not re.search(r"std::\w*(?:error|exception)\b|\bError\b|\.\.\.", match.group(1)):
             yield line_of(code, match.start()), f"inheritance from {match.group(1).strip()}"

@@ -97,7 +97,8 @@ class Layers(unittest.TestCase):
     def test_inheritance(self):
         self.flags({"libfsi/core/a.hpp": HEAD + "class A : public B {};\n"}, "inheritance from")
         self.passes({"libfsi/core/a.hpp": HEAD + "class A : public std::runtime_error {};\n"
-                                                 "enum class K : int { a };\n"})
+                                                 "enum class K : int { a };\n"
+                                                 "struct A::B {};\n"})
 
     def test_words_of_code(self):
         for text, what in (("int* p = new int;", "new is not used"),
