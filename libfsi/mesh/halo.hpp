@@ -1,8 +1,8 @@
 #pragma once
 // Copies of a neighbour rank's cells, refreshed by one exchange.
 
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "libfsi/core/types.hpp"
 
@@ -12,7 +12,7 @@ namespace fsi {
 /// Invariant: send and receive lists of all ranks match. One rank: every update is free.
 class Halo {
  public:
-  Halo() = default;
+  Halo() noexcept;
   /// Collective. halo_owner[i], halo_owner_cell[i]: owning rank and its local cell number for local
   /// cell n_owned + i.
   Halo(Index n_owned, std::span<const int> halo_owner, std::span<const Index> halo_owner_cell);
@@ -23,7 +23,8 @@ class Halo {
   Halo& operator=(const Halo&) = delete;
 
   /// Collective. `values` holds n_cells items of `width` Reals, cell by cell.
-  /// On return the halo part equals the owners' values, bit for bit.
+  /// On return the halo part equals the owners' values, bit for bit. The first call with a width
+  /// makes its buffers; later ones allocate nothing.
   void update(Real* values, int width) const;
 
   /// The same for any field of Real, Vec3, SymTensor or Tensor.
@@ -36,8 +37,8 @@ class Halo {
   void add_to_owner(Real* values, int width) const;
 
  private:
-  void* sf_ = nullptr;  // PetscSF
-  Index n_owned_ = 0;
+  struct Exchange;  // PetscSF and one MPI datatype a width
+  std::unique_ptr<Exchange> exchange_;
 };
 
 }  // namespace fsi
