@@ -1,0 +1,48 @@
+#pragma once
+// Boundary conditions as data: one condition a patch, resolved once.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "libfsi/field/field.hpp"
+
+namespace fsi {
+
+/// A wall at rest or moving in its own plane: u = velocity, no flow through it.
+struct Wall {
+  Vec3 velocity;
+};
+/// A plane without friction, or a plane of symmetry: u.n = 0, no shear.
+struct Slip {};
+/// Prescribed velocity u(x, t).
+struct FixedVelocity {
+  std::function<Vec3(const Vec3& x, Real t)> u;
+};
+/// Inlet or outlet at given pressure; velocity with zero gradient along the normal.
+struct Opening {
+  Real pressure = 0;
+};
+
+using Condition = std::variant<Wall, Slip, FixedVelocity, Opening>;
+/// Patch name -> condition.
+using Conditions = std::map<std::string, Condition>;
+
+/// The conditions of a mesh's patches, in their order.
+/// Errors: Error{input} where a patch has no condition or a condition no patch.
+std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
+
+/// Velocity on the boundary faces at time t. u: owned cells set.
+void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
+                           const std::vector<Condition>& conditions, Real t, const Mesh& mesh);
+/// Pressure on the boundary faces of openings; other faces keep their value.
+void set_boundary_pressure(BoundaryField<Real>& p_b, const std::vector<Condition>& conditions,
+                           const Mesh& mesh);
+
+/// Whether the condition gives the velocity (for its gradient and the implicit viscous term).
+bool fixes_velocity(const Condition& condition);
+bool fixes_pressure(const Condition& condition);
+
+}  // namespace fsi

@@ -1,0 +1,30 @@
+#include "libfsi/flow/forcing.hpp"
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi::flow {
+
+Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity)
+    : mesh_(mesh), axis_(axis / norm(axis)), target_(mean_velocity), u_1_(mesh), phi_1_(mesh) {
+  for (Index f = 0; f < mesh.n_internal; ++f) phi_1_[f] = dot(axis_, mesh.Sf[f]);
+  CellField<Real> psi(mesh);
+  projection.project(phi_1_, psi, u_1_, 0);
+  for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = axis_ - u_1_[c];
+  mean_1_ = mean(phi_1_);
+}
+
+Real Forcing::mean(const FaceField<Real>& phi) const {
+  Sum sum;  // every face once: by the rank of its owner
+  for (Index f = 0; f < mesh_.n_internal; ++f)
+    if (mesh_.owner[f] < mesh_.n_owned) sum.add(phi[f] * dot(mesh_.d[f], axis_));
+  return sum.total() / mesh_.total_volume;
+}
+
+void Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt) {
+  const Real c = (target_ - mean(phi)) / mean_1_;
+  for (Index i = 0; i < mesh_.n_cells; ++i) u[i] += c * u_1_[i];
+  for (Index f = 0; f < mesh_.n_internal; ++f) phi[f] += c * phi_1_[f];
+  gradient += rho * c / dt;
+}
+
+}  // namespace fsi::flow

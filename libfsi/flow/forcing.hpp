@@ -1,0 +1,36 @@
+#pragma once
+// The uniform pressure gradient that holds the mean velocity of a periodic channel.
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/flow/projection.hpp"
+
+namespace fsi::flow {
+
+/// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
+/// divergence-free, so adding a multiple of it keeps div u = 0:
+///   c = (U - <phi>) / <phi_1>,   phi += c phi_1,   u += c u_1,   S += rho c / dt,
+/// where <phi> = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a divergence-free flux:
+/// the same through every section, so nothing happens when a particle crosses the seam.
+class Forcing {
+ public:
+  Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity);
+
+  /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
+  void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt);
+  /// <phi>; collective.
+  Real mean(const FaceField<Real>& phi) const;
+
+  /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.
+  Real gradient = 0;
+  Vec3 axis() const { return axis_; }
+
+ private:
+  const Mesh& mesh_;
+  Vec3 axis_;
+  Real target_;
+  CellField<Vec3> u_1_;
+  FaceField<Real> phi_1_;
+  Real mean_1_ = 1;
+};
+
+}  // namespace fsi::flow

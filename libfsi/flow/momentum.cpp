@@ -1,0 +1,150 @@
+#include "libfsi/flow/momentum.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace fsi::flow {
+
+void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
+                       const FaceWeights& weights, const Mesh& mesh) {
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Real a_P = alpha[mesh.owner[f]], a_N = alpha[mesh.neighbour[f]];
+    mu[f] = mu_f + (mu_s - mu_f) * (a_P + weights.lambda[f] * (a_N - a_P));
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    mu[f] = mu_f + (mu_s - mu_f) * alpha[mesh.owner[f]];
+}
+
+void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
+                const FaceWeights& weights, const Mesh& mesh) {
+  conv.fill({});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    // u_f = (1 - lambda) u_P + lambda u_N + (grad u)_f . skew
+    Vec3 u_f = u[P] + lambda * (u[N] - u[P]);
+    if (weights.skewed)
+      u_f += (1 - lambda) * dot(L[P], weights.skew[f]) + lambda * dot(L[N], weights.skew[f]);
+    conv[P] += phi[f] * (u_f - u[P]);
+    conv[N] -= phi[f] * (u_f - u[N]);
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f];
+    conv[P] += phi[f] * (u_b[f - mesh.n_internal] - u[P]);
+  }
+}
+
+void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
+                     const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
+                     const FaceWeights& weights, const Mesh& mesh) {
+  visc.fill({});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Vec3 flux = mu[f] * weights.g[f] * (u[N] - u[P]);
+    visc[P] += flux;
+    visc[N] -= flux;
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f], b = f - mesh.n_internal;
+    if (open_face[b] == 0) visc[P] += mu[f] * weights.g[f] * (u_b[b] - u[P]);
+  }
+}
+
+void viscous_rest(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
+                  const CellField<Tensor>& L, const std::vector<char>& open_face,
+                  const FaceWeights& weights, const Mesh& mesh) {
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Real excess = mu[f] - mu_0;
+    if (!weights.non_orthogonal && excess == 0) continue;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Tensor L_f = (1 - weights.lambda[f]) * L[P] + weights.lambda[f] * L[N];
+    const Vec3 flux = mu[f] * dot(L_f, weights.k[f]) + excess * dot(transpose(L_f), mesh.Sf[f]);
+    rest[P] += flux;
+    rest[N] -= flux;
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    if (open_face[f - mesh.n_internal] != 0) continue;
+    const Index P = mesh.owner[f];
+    rest[P] += mu[f] * dot(L[P], weights.k[f]) + (mu[f] - mu_0) * dot(transpose(L[P]), mesh.Sf[f]);
+  }
+}
+
+Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
+                   const std::vector<Condition>& conditions, Real rho, Real mu_0)
+    : mesh_(mesh),
+      weights_(weights),
+      rho_(rho),
+      mu_0_(mu_0),
+      open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      history_(mesh),
+      now_(mesh),
+      rhs_(mesh),
+      w_(mesh),
+      b_(static_cast<std::size_t>(mesh.n_owned)),
+      matrix_(mesh),
+      system_(mesh, "u", Method::jacobi, false, 1e-8) {
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (fixes_pressure(conditions[i]))
+      for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
+        open_face_[f - mesh.n_internal] = 1;
+}
+
+void Momentum::assemble(const FaceField<Real>& mu, Real theta_now, Real dt) {
+  for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Real a = theta_now * mu[f] * weights_.g[f];
+    const Index P = mesh_.owner[f];
+    if (f < mesh_.n_internal) {
+      matrix_.off_diagonal[f] = -a;
+      const Index N = mesh_.neighbour[f];
+      if (N < mesh_.n_owned) matrix_.diagonal[N] += a;
+    } else if (open_face_[f - mesh_.n_internal] != 0) {
+      continue;
+    }
+    if (P < mesh_.n_owned) matrix_.diagonal[P] += a;
+  }
+  system_.assemble(matrix_);
+  assembled_ = {theta_now, dt};
+}
+
+int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                      const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
+                      const CellField<Tensor>& L, const FaceField<Real>& phi,
+                      const FaceField<Real>& mu, bool mu_varies, const Sources& sources, Real dt) {
+  constexpr int damped_steps = 2;
+  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
+  if (mu_varies || assembled_ != std::array{theta_now, dt}) assemble(mu, theta_now, dt);
+
+  convection(now_, phi, u, u_b, L, weights_, mesh_);
+  for (Index c = 0; c < mesh_.n_owned; ++c) now_[c] *= -rho_;
+  if (weights_.non_orthogonal || mu_varies)
+    viscous_rest(now_, mu, mu_0_, L, open_face_, weights_, mesh_);
+  viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
+  // Adams-Bashforth with variable step: E^(n+1/2) = E^n + r (E^n - E^(n-1)), r = dt / (2 dt_old)
+  const Real r = dt_old > 0 ? dt / (2 * dt_old) : 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    rhs_[c] += now_[c] + r * (now_[c] - history_[c]) +
+               mesh_.V[c] * (sources.force[c] + sources.body - grad_p[c]);
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
+    const Index b = f - mesh_.n_internal;
+    if (open_face_[b] == 0)
+      rhs_[mesh_.owner[f]] += theta_now * mu[f] * weights_.g[f] * (u_b_new[b] - u_b[b]);
+  }
+
+  int iterations = 0;
+  for (int i = 0; i < mesh_.dim; ++i) {
+    for (Index c = 0; c < mesh_.n_owned; ++c) {
+      b_[c] = rhs_[c][i];
+      w_[c] = b_[c] / matrix_.diagonal[c];
+    }
+    iterations += system_.solve(w_, b_).iterations;
+    for (Index c = 0; c < mesh_.n_cells; ++c) u[c][i] += w_[c];
+  }
+  history_.swap(now_);
+  dt_old = dt;
+  ++steps_taken;
+  return iterations;
+}
+
+}  // namespace fsi::flow

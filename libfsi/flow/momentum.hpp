@@ -1,0 +1,83 @@
+#pragma once
+// The momentum equation up to the pressure correction.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/linear_system.hpp"
+
+namespace fsi::flow {
+
+/// Face viscosity mu = alpha mu_s + (1 - alpha) mu_f [Matsumiya25] (3), alpha averaged linearly.
+void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
+                       const FaceWeights& weights, const Mesh& mesh);
+
+/// conv_c = sum_f phi_f u_f - u_c sum_f phi_f: div(phi u) integrated over owned cells, u_f linear
+/// with skewness correction; exact for a uniform u whatever phi is.
+void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
+                const FaceWeights& weights, const Mesh& mesh);
+
+/// visc_c = sum_f mu_f g_f (u_N - u_P): the compact part of div(mu grad u) over owned cells.
+/// Faces of openings carry no viscous flux.
+void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
+                     const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
+                     const FaceWeights& weights, const Mesh& mesh);
+
+/// rest_c += sum_f mu_f k_f . (grad u)_f + (mu_f - mu_0) (grad u)_f^T . S_f: what the compact part
+/// leaves of div(mu (grad u + grad u^T)). With a constant mu the transpose vanishes by div u = 0,
+/// so only its excess over the constant mu_0 is added.
+void viscous_rest(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
+                  const CellField<Tensor>& L, const std::vector<char>& open_face,
+                  const FaceWeights& weights, const Mesh& mesh);
+
+/// What the predictor needs besides u and p.
+struct Sources {
+  const CellField<Vec3>& force;  ///< elastic force per volume
+  Vec3 body;                     ///< uniform force per volume (mean-velocity forcing)
+};
+
+/// The predictor [Matsumiya25] (12), second order in time (Adams-Bashforth for convection and the
+/// explicit viscous rest, theta = 1/2 for the compact viscous term), in increments w = u* - u^n:
+///   rho V w / dt - theta sum_f mu g (w_N - w_P)
+///     = -rho AB(conv) + visc(u^n) + AB(rest) + V (-grad p^n + f + S).
+/// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start leaves.
+class Momentum {
+ public:
+  Momentum(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
+           Real rho, Real mu_0);
+
+  /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
+  /// Returns iterations of all components. Errors: Error{numerics}.
+  int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
+              const CellField<Vec3>& grad_p, const CellField<Tensor>& L, const FaceField<Real>& phi,
+              const FaceField<Real>& mu, bool mu_varies, const Sources& sources, Real dt);
+
+  /// Explicit terms of the last step, and its length (0: none yet): part of a checkpoint.
+  CellField<Vec3>& history() { return history_; }
+  const CellField<Vec3>& history() const { return history_; }
+  Real dt_old = 0;
+  int steps_taken = 0;
+  Real theta = 0.5;           ///< after the first steps
+  /// Faces without viscous flux: those of openings.
+  const std::vector<char>& open_face() const { return open_face_; }
+
+ private:
+  void assemble(const FaceField<Real>& mu, Real theta_now, Real dt);
+  const Mesh& mesh_;
+  const FaceWeights& weights_;
+  Real rho_, mu_0_;
+  std::vector<char> open_face_;
+  CellField<Vec3> history_, now_, rhs_;
+  CellField<Real> w_;
+  std::vector<Real> b_;
+  FaceMatrix matrix_;
+  LinearSystem system_;
+  std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
+};
+
+}  // namespace fsi::flow

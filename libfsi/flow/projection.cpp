@@ -1,0 +1,150 @@
+#include "libfsi/flow/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi::flow {
+namespace {
+
+std::vector<bool> pressure_given(const std::vector<Condition>& conditions) {
+  std::vector<bool> given;
+  for (const Condition& condition : conditions) given.push_back(fixes_pressure(condition));
+  return given;
+}
+
+bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
+
+}  // namespace
+
+void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                  const std::vector<char>& open_face, const FluxTerms& terms,
+                  const FaceWeights& weights, const Mesh& mesh) {
+  const auto damped = [&](Index f) {
+    return terms.dt / (terms.rho + 4 * terms.dt * terms.theta * terms.mu[f] / norm2(mesh.d[f]));
+  };
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    Vec3 u_f = u[P] + lambda * (u[N] - u[P]);
+    if (weights.skewed)
+      u_f += (1 - lambda) * dot(terms.L[P], weights.skew[f]) + lambda * dot(terms.L[N], weights.skew[f]);
+    const Vec3 grad_f = (1 - lambda) * terms.grad_p[P] + lambda * terms.grad_p[N];
+    const Real brace = dot(grad_f, mesh.d[f]) - (terms.p[N] - terms.p[P]) + terms.balance[f];
+    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f) * weights.g[f] * brace;
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index b = f - mesh.n_internal, P = mesh.owner[f];
+    phi[f] = dot(u_b[b], mesh.Sf[f]);
+    if (open_face[b] == 0) continue;
+    const Real brace = dot(terms.grad_p[P], mesh.d[f]) - (terms.p_b[b] - terms.p[P]);
+    phi[f] += damped(f) * weights.g[f] * brace;
+  }
+}
+
+Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
+                       const std::vector<Condition>& conditions, Method method, int correctors)
+    : mesh_(mesh),
+      weights_(weights),
+      correctors_(weights.non_orthogonal ? correctors : 0),
+      open_(any(pressure_given(conditions))),
+      open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      adjustable_(open_face_.size(), 0),
+      stencil_(mesh, weights, pressure_given(conditions)),
+      zero_(mesh),
+      b_(static_cast<std::size_t>(mesh.n_owned)),
+      system_(mesh, "p", method, !open_, 1e-6) {
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
+      adjustable_[f - mesh.n_internal] = std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
+    }
+  Sum area;
+  for (Index b = 0; b < mesh.n_boundary(); ++b)
+    if (adjustable_[b] != 0) area.add(norm(mesh.Sf[mesh.n_internal + b]));
+  adjustable_area_ = area.total();
+
+  FaceMatrix matrix(mesh);
+  for (Index f = 0; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f];
+    if (f < mesh.n_internal) {
+      matrix.off_diagonal[f] = -weights.g[f];
+      if (mesh.neighbour[f] < mesh.n_owned) matrix.diagonal[mesh.neighbour[f]] += weights.g[f];
+    } else if (open_face_[f - mesh.n_internal] == 0) {
+      continue;
+    }
+    if (P < mesh.n_owned) matrix.diagonal[P] += weights.g[f];
+  }
+  system_.assemble(matrix);
+}
+
+void Projection::balance_boundary(FaceField<Real>& phi) const {
+  if (open_ || adjustable_area_ == 0) return;
+  Sum net;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) net.add(phi[f]);
+  const Real excess = net.total() / adjustable_area_;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (adjustable_[f - mesh_.n_internal] != 0) phi[f] -= excess * norm(mesh_.Sf[f]);
+}
+
+void Projection::outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad_q, bool correct) {
+  // b = -sum_f (phi_f - k . (grad q)_f)
+  std::fill(b_.begin(), b_.end(), 0.0);
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Index P = mesh_.owner[f];
+    Real flux = phi[f];
+    if (f >= mesh_.n_internal) {
+      if (correct && open_face_[f - mesh_.n_internal] != 0) flux -= dot(grad_q[P], weights_.k[f]);
+      b_[P] -= flux;
+      continue;
+    }
+    const Index N = mesh_.neighbour[f];
+    if (correct)
+      flux -= dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
+    if (P < mesh_.n_owned) b_[P] -= flux;
+    if (N < mesh_.n_owned) b_[N] += flux;
+  }
+}
+
+Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
+                          Real absolute) {
+  balance_boundary(phi);
+  q.fill(0);
+  Solve total;
+  for (int corrector = 0; corrector <= correctors_; ++corrector) {
+    outflow(phi, grad_q, corrector > 0);
+    const Solve solve = system_.solve(q, b_, absolute);
+    total.iterations += solve.iterations;
+    total.residual = solve.residual;
+    if (corrector < correctors_) gradient(grad_q, q, zero_, stencil_, mesh_);
+  }
+  // phi = phi* - g (q_N - q_P) - k . (grad q)_f with the same grad q as in the last right-hand side
+  const bool correct = correctors_ > 0;
+  for (Index f = 0; f < mesh_.n_internal; ++f) {
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    phi[f] -= weights_.g[f] * (q[N] - q[P]);
+    if (correct)
+      phi[f] -= dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
+  }
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
+    if (open_face_[f - mesh_.n_internal] == 0) continue;
+    const Index P = mesh_.owner[f];
+    phi[f] += weights_.g[f] * q[P];
+    if (correct) phi[f] -= dot(grad_q[P], weights_.k[f]);
+  }
+  gradient(grad_q, q, zero_, stencil_, mesh_);
+  return total;
+}
+
+Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh) {
+  Real worst = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += mesh.owner[f] == c ? phi[f] : -phi[f];
+    worst = std::max(worst, std::abs(sum) / mesh.V[c]);
+  }
+  return global_max(worst);
+}
+
+}  // namespace fsi::flow

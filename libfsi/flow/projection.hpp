@@ -1,0 +1,72 @@
+#pragma once
+// Face fluxes and the pressure correction.
+
+#include <vector>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/gradient.hpp"
+#include "libfsi/operators/linear_system.hpp"
+
+namespace fsi::flow {
+
+/// What enters the face flux besides u*.
+struct FluxTerms {
+  const CellField<Real>& p;
+  const CellField<Vec3>& grad_p;
+  const BoundaryField<Real>& p_b;    ///< read on openings only
+  const CellField<Tensor>& L;        ///< velocity gradient, read on skewed meshes only
+  const FaceField<Real>& balance;    ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
+  const FaceField<Real>& mu;
+  Real theta = 0.5, rho = 1, dt = 0;
+};
+
+/// Balanced, damped Rhie-Chow flux [Rhie83]:
+///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
+///   d_f = dt / (rho + 4 dt theta mu_f / |d|^2).
+/// The brace compares the compact with the averaged gradient of p and of the elastic normal stress;
+/// it vanishes for linear fields. Boundary: prescribed velocity, or the same with p_b at openings.
+/// On return every face of phi is set. u: owned and halo.
+void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                  const std::vector<char>& open_face, const FluxTerms& terms,
+                  const FaceWeights& weights, const Mesh& mesh);
+
+/// Makes a flux divergence-free: Lap q = div phi*, phi = phi* - grad q . S, u = u* - grad q. q is
+/// dt / rho times the pressure increment. The matrix is constant: one set-up a run.
+class Projection {
+ public:
+  /// correctors: extra solves for the non-orthogonal part, on meshes that have one.
+  Projection(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
+             Method method, int correctors);
+
+  /// phi: every face set. On return phi is divergence-free to the solver's tolerance; q and grad_q
+  /// (owned and halo) are what u and p are to be corrected with. absolute: see LinearSystem::solve,
+  /// in units of volume per time. Errors: Error{numerics}.
+  Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real absolute);
+
+  /// Where the pressure is given it counts as a value, elsewhere it is extrapolated to the wall.
+  const GradientStencil& stencil() const { return stencil_; }
+  /// Whether some patch gives the pressure.
+  bool open() const { return open_; }
+
+ private:
+  void outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad_q, bool correct);
+  void balance_boundary(FaceField<Real>& phi) const;
+
+  const Mesh& mesh_;
+  const FaceWeights& weights_;
+  int correctors_;
+  bool open_ = false;
+  std::vector<char> open_face_, adjustable_;  // [n_boundary]
+  Real adjustable_area_ = 0;
+  GradientStencil stencil_;
+  BoundaryField<Real> zero_;
+  std::vector<Real> b_;
+  LinearSystem system_;
+};
+
+/// max over owned cells of all ranks of |sum_f phi_f| / V.
+Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);
+
+}  // namespace fsi::flow
