@@ -144,10 +144,15 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
 }
 
-Solve LinearSystem::solve(CellField<Real>& x, std::span<const Real> b, Real absolute) {
+Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute) {
   Handles& h = *handles_;
   FSI_PETSC(VecPlaceArray(h.x, x.data()));
   FSI_PETSC(VecPlaceArray(h.b, b.data()));
+  if (h.null_space) {
+    MatNullSpace constant = nullptr;
+    FSI_PETSC(MatGetNullSpace(h.matrix, &constant));
+    FSI_PETSC(MatNullSpaceRemove(constant, h.b));
+  }
   PetscReal rtol = 0, divergence = 0;
   PetscInt its = 0, most = 0;
   FSI_PETSC(KSPGetTolerances(h.solver, &rtol, nullptr, &divergence, &most));
