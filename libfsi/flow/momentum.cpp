@@ -82,30 +82,58 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       rhs_(mesh),
       w_(mesh),
       b_(static_cast<std::size_t>(mesh.n_owned)),
-      matrix_(mesh),
-      system_(mesh, "u", Method::jacobi, false, 1e-8) {
+      matrix_(mesh) {
+  implicit_.assign(open_face_.size(), Vec3{1, 1, 1});
+  bool slip = false;
   for (std::size_t i = 0; i < conditions.size(); ++i)
-    if (fixes_pressure(conditions[i]))
-      for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
-        open_face_[f - mesh.n_internal] = 1;
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      const Index b = f - mesh.n_internal;
+      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      if (fixes_pressure(conditions[i])) open_face_[b] = 1, implicit_[b] = {};
+      if (std::holds_alternative<Slip>(conditions[i]))
+        implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
+    }
+  for (const Condition& condition : conditions)
+    slip = slip || std::holds_alternative<Slip>(condition);
+  for (int i = 0; i < (slip ? mesh.dim : 1); ++i)
+    systems_.emplace_back(mesh, "u", Method::jacobi, false, 1e-8);
+  diagonal_.resize(systems_.size());
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, Real theta_now, Real dt) {
-  for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
-  for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Real a = theta_now * mu[f] * weights_.g[f];
-    const Index P = mesh_.owner[f];
-    if (f < mesh_.n_internal) {
-      matrix_.off_diagonal[f] = -a;
-      const Index N = mesh_.neighbour[f];
-      if (N < mesh_.n_owned) matrix_.diagonal[N] += a;
-    } else if (open_face_[f - mesh_.n_internal] != 0) {
-      continue;
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
+    for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
+    for (Index f = 0; f < mesh_.n_faces; ++f) {
+      Real a = theta_now * mu[f] * weights_.g[f];
+      const Index P = mesh_.owner[f];
+      if (f < mesh_.n_internal) {
+        matrix_.off_diagonal[f] = -a;
+        const Index N = mesh_.neighbour[f];
+        if (N < mesh_.n_owned) matrix_.diagonal[N] += a;
+      } else {
+        a *= implicit_[f - mesh_.n_internal][static_cast<int>(i)];
+      }
+      if (P < mesh_.n_owned) matrix_.diagonal[P] += a;
     }
-    if (P < mesh_.n_owned) matrix_.diagonal[P] += a;
+    systems_[i].assemble(matrix_);
+    diagonal_[i] = matrix_.diagonal;
   }
-  system_.assemble(matrix_);
   assembled_ = {theta_now, dt};
+}
+
+void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
+                       const CellField<Vec3>& grad_p, const FaceField<Real>& mu,
+                       const Sources& sources, Real theta_now, Real dt) {
+  // Adams-Bashforth with variable step: E^(n+1/2) = E^n + r (E^n - E^(n-1)), r = dt / (2 dt_old)
+  const Real r = dt_old > 0 ? dt / (2 * dt_old) : 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    rhs_[c] += now_[c] + r * (now_[c] - history_[c]) +
+               mesh_.V[c] * (sources.force[c] + sources.body - grad_p[c]);
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
+    const Index b = f - mesh_.n_internal;
+    if (open_face_[b] == 0)
+      rhs_[mesh_.owner[f]] += theta_now * mu[f] * weights_.g[f] * (u_b_new[b] - u_b[b]);
+  }
 }
 
 int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
@@ -121,24 +149,16 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
   if (weights_.non_orthogonal || mu_varies)
     viscous_rest(now_, mu, mu_0_, L, open_face_, weights_, mesh_);
   viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
-  // Adams-Bashforth with variable step: E^(n+1/2) = E^n + r (E^n - E^(n-1)), r = dt / (2 dt_old)
-  const Real r = dt_old > 0 ? dt / (2 * dt_old) : 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    rhs_[c] += now_[c] + r * (now_[c] - history_[c]) +
-               mesh_.V[c] * (sources.force[c] + sources.body - grad_p[c]);
-  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
-    const Index b = f - mesh_.n_internal;
-    if (open_face_[b] == 0)
-      rhs_[mesh_.owner[f]] += theta_now * mu[f] * weights_.g[f] * (u_b_new[b] - u_b[b]);
-  }
+  set_rhs(u_b, u_b_new, grad_p, mu, sources, theta_now, dt);
 
   int iterations = 0;
   for (int i = 0; i < mesh_.dim; ++i) {
+    const std::size_t system = systems_.size() > 1 ? static_cast<std::size_t>(i) : 0;
     for (Index c = 0; c < mesh_.n_owned; ++c) {
       b_[c] = rhs_[c][i];
-      w_[c] = b_[c] / matrix_.diagonal[c];
+      w_[c] = b_[c] / diagonal_[system][c];
     }
-    iterations += system_.solve(w_, b_).iterations;
+    iterations += systems_[system].solve(w_, b_).iterations;
     for (Index c = 0; c < mesh_.n_cells; ++c) u[c][i] += w_[c];
   }
   history_.swap(now_);

@@ -2,7 +2,6 @@
 // The momentum equation up to the pressure correction.
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
@@ -68,15 +67,20 @@ class Momentum {
 
  private:
   void assemble(const FaceField<Real>& mu, Real theta_now, Real dt);
+  void set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
+               const CellField<Vec3>& grad_p, const FaceField<Real>& mu, const Sources& sources,
+               Real theta_now, Real dt);
   const Mesh& mesh_;
   const FaceWeights& weights_;
   Real rho_, mu_0_;
   std::vector<char> open_face_;
+  std::vector<Vec3> implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   CellField<Vec3> history_, now_, rhs_;
   CellField<Real> w_;
   std::vector<Real> b_;
   FaceMatrix matrix_;
-  LinearSystem system_;
+  std::vector<std::vector<Real>> diagonal_;  // one a system
+  std::vector<LinearSystem> systems_;  // one, or one a component where a slip plane tells them apart
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

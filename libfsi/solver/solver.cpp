@@ -1,0 +1,138 @@
+#include "libfsi/solver/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+/// A constant matrix of a small 2-D mesh is factored once; all others get multigrid.
+Method pressure_method(const Mesh& mesh) {
+  constexpr GlobalIndex small = 100'000;
+  return mesh.dim == 2 && mesh.n_global <= small ? Method::direct : Method::multigrid;
+}
+
+std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
+  return std::vector<bool>(conditions.size(), true);  // zero-gradient values count as well
+}
+
+}  // namespace
+
+Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
+    : mesh_(mesh),
+      physics_(physics),
+      conditions_(resolve(setup.conditions, mesh)),
+      weights_(mesh),
+      state_(mesh),
+      u_b_(mesh),
+      u_b_new_(mesh),
+      p_b_(mesh),
+      grad_p_(mesh),
+      grad_q_(mesh),
+      force_(mesh),
+      L_(mesh),
+      q_(mesh),
+      mu_(mesh, physics.mu_f),
+      balance_(mesh),
+      u_stencil_(mesh, weights_, velocity_given(conditions_)),
+      projection_(mesh, weights_, conditions_, pressure_method(mesh), setup.non_orthogonal_correctors),
+      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f) {
+  if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
+  // The transposed viscous term is explicit: backward Euler where it is large.
+  if (physics.mu_s > 2 * physics.mu_f) momentum_.theta = 1;
+  set_boundary_pressure(p_b_, conditions_, mesh);
+  Sum squares;
+  for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
+  cells_norm_ = std::sqrt(squares.total());
+}
+
+void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
+  for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
+  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  balance_.fill(0);
+  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_, balance_, mu_, 1, physics_.rho, 0};
+  flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
+  projection_.project(state_.phi, q_, grad_q_, 1e-12 * mesh_.total_volume);
+  for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
+  if (forcing_) {
+    forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
+    forcing_->gradient = 0;
+  }
+}
+
+void Solver::step(Real dt) {
+  update_gradients();      // grad p^n, L^n
+  predict_momentum(dt);    // du/dt + div(u u) = ...          [Matsumiya25] (12)
+  predict_flux(dt);        // phi* from u*                    [Rhie83]
+  project(dt);             // div u = 0                       [Matsumiya25] (1)
+  hold_mean_velocity(dt);  // S                               [Matsumiya25] (12)
+  check_finite();
+  state_.t += dt;
+  ++state_.step;
+}
+
+void Solver::update_gradients() {
+  gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
+  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  if (weights_.skewed || weights_.non_orthogonal)
+    gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+}
+
+void Solver::predict_momentum(Real dt) {
+  set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
+  const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
+  report_.velocity_iterations =
+      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, false, {force_, body}, dt);
+}
+
+void Solver::predict_flux(Real dt) {
+  set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
+  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_, balance_, mu_, momentum_.theta, physics_.rho, dt};
+  flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
+}
+
+void Solver::project(Real dt) {
+  constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
+  const Solve solve = projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
+  for (Index c = 0; c < mesh_.n_cells; ++c) {
+    state_.u[c] -= grad_q_[c];
+    state_.p[c] += physics_.rho / dt * q_[c];
+  }
+  report_.pressure_iterations = solve.iterations;
+  report_.pressure_residual = solve.residual;
+}
+
+void Solver::hold_mean_velocity(Real dt) {
+  if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
+}
+
+void Solver::check_finite() const {
+  Real sum = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
+  if (!all_of_ranks(std::isfinite(sum)))
+    throw Error(Kind::numerics, "velocity or pressure is not finite after step " +
+                                    std::to_string(state_.step + 1));
+}
+
+Real Solver::advective_dt(Real courant) const {
+  Real rate = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh_.cell_faces[c]) sum += std::abs(state_.phi[f]);
+    rate = std::max(rate, sum / (2 * mesh_.V[c]));
+  }
+  rate = global_max(rate);
+  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+const CellField<Tensor>& Solver::velocity_gradient() {
+  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  return L_;
+}
+
+}  // namespace fsi

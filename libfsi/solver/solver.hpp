@@ -1,0 +1,105 @@
+#pragma once
+// The step: the only place that knows the order of the equations.
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/forcing.hpp"
+#include "libfsi/flow/momentum.hpp"
+#include "libfsi/flow/projection.hpp"
+#include "libfsi/operators/gradient.hpp"
+
+namespace fsi {
+
+/// Material constants, in consistent units.
+struct Physics {
+  Real rho = 1;     ///< density of fluid and solid
+  Real mu_f = 0.01; ///< dynamic viscosity of the fluid
+  Real mu_s = 0.01; ///< of the solid
+  Real G = 0;       ///< shear modulus of the solid
+};
+
+/// What drives and how the flow is solved.
+struct FlowSetup {
+  Conditions conditions{};
+  Vec3 axis{1, 0, 0};                  ///< of the mean velocity
+  std::optional<Real> mean_velocity{}; ///< held exactly in a periodic channel
+  int non_orthogonal_correctors = 1;
+};
+
+/// The unknowns at time t.
+struct State {
+  explicit State(const Mesh& mesh) : u(mesh), p(mesh), alpha(mesh), phi(mesh) {}
+  CellField<Vec3> u;
+  CellField<Real> p;
+  CellField<Real> alpha;   ///< volume fraction of the solid
+  FaceField<Real> phi;     ///< volume flux, divergence-free to the solver's tolerance
+  Real t = 0;
+  std::int64_t step = 0;
+};
+
+/// What the last step took.
+struct StepReport {
+  int velocity_iterations = 0, pressure_iterations = 0;
+  Real pressure_residual = 0;
+};
+
+/// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates nothing.
+class Solver {
+ public:
+  /// Collective. mesh must outlive the solver.
+  Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup);
+
+  /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free.
+  void start(const std::function<Vec3(const Vec3&)>& u_0);
+
+  /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
+  void step(Real dt);
+
+  /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
+  Real advective_dt(Real courant) const;
+
+  const Mesh& mesh() const { return mesh_; }
+  State& state() { return state_; }
+  const State& state() const { return state_; }
+  const StepReport& report() const { return report_; }
+  const BoundaryField<Vec3>& u_b() const { return u_b_; }
+  /// Velocity gradient at the state's time; collective.
+  const CellField<Tensor>& velocity_gradient();
+  /// Driving pressure gradient S; zero without a mean velocity.
+  Real driving_gradient() const { return forcing_ ? forcing_->gradient : 0; }
+  /// Volume mean of the velocity along the axis.
+  Real mean_velocity() const { return forcing_ ? forcing_->mean(state_.phi) : 0; }
+
+ private:
+  void update_gradients();
+  void predict_momentum(Real dt);
+  void predict_flux(Real dt);
+  void project(Real dt);
+  void hold_mean_velocity(Real dt);
+  void check_finite() const;
+
+  const Mesh& mesh_;
+  Physics physics_;
+  std::vector<Condition> conditions_;
+  FaceWeights weights_;
+  State state_;
+  BoundaryField<Vec3> u_b_, u_b_new_;
+  BoundaryField<Real> p_b_;
+  CellField<Vec3> grad_p_, grad_q_, force_;
+  CellField<Tensor> L_;
+  CellField<Real> q_;
+  FaceField<Real> mu_, balance_;
+  GradientStencil u_stencil_;
+  flow::Projection projection_;
+  flow::Momentum momentum_;
+  std::optional<flow::Forcing> forcing_;
+  Real cells_norm_ = 0;  // sqrt(sum V^2)
+  StepReport report_;
+};
+
+}  // namespace fsi

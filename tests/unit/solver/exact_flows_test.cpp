@@ -1,0 +1,122 @@
+// Observed orders on exact solutions of the Navier-Stokes equations, on uniform quads.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_mesh.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real pi = std::numbers::pi;
+
+struct Errors {
+  Real u = 0, p = 0;
+};
+
+/// L2 errors against exact fields; the mean of the pressure difference is taken out.
+template <class U, class P>
+Errors errors(const Solver& solver, const U& u, const P& p) {
+  const Mesh& mesh = solver.mesh();
+  Sum mean, squares, p_squares;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    mean.add(mesh.V[c] * (solver.state().p[c] - p(mesh.C[c])));
+  const Real shift = mean.total() / mesh.total_volume;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    squares.add(mesh.V[c] * norm2(solver.state().u[c] - u(mesh.C[c])));
+    const Real e = solver.state().p[c] - p(mesh.C[c]) - shift;
+    p_squares.add(mesh.V[c] * e * e);
+  }
+  return {std::sqrt(squares.total() / mesh.total_volume),
+          std::sqrt(p_squares.total() / mesh.total_volume)};
+}
+
+Errors taylor_green(Index n, int steps) {
+  const Mesh mesh = test::box_mesh({.n = {n, n, 0}, .periodic = {true, true, false}});
+  constexpr Real nu = 0.01, k = 2 * pi, t_end = 0.5;
+  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu}, {});
+  const auto u = [](const Vec3& x, Real t) {
+    const Real F = std::exp(-2 * nu * k * k * t);
+    return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * F, -std::cos(k * x.x) * std::sin(k * x.y) * F, 0};
+  };
+  const auto p = [](const Vec3& x, Real t) {
+    const Real F = std::exp(-2 * nu * k * k * t);
+    return (std::cos(2 * k * x.x) + std::cos(2 * k * x.y)) * F * F / 4;
+  };
+  solver.start([&](const Vec3& x) { return u(x, 0); });
+  for (int i = 0; i < steps; ++i) solver.step(t_end / steps);
+  EXPECT_LE(flow::divergence_max(solver.state().phi, mesh), 1e-6);
+  return errors(solver, [&](const Vec3& x) { return u(x, t_end); },
+                [&](const Vec3& x) { return p(x, t_end - t_end / steps / 2); });
+}
+
+// Small steps: the Rhie-Chow flux carries an error of order dt h^2 that would hide the spatial one.
+// The pressure of a step belongs to its middle, t - dt / 2.
+TEST(ExactFlows, TaylorGreenOrder) {
+  const Errors coarse = taylor_green(32, 1000), fine = taylor_green(64, 2000);
+  RecordProperty("u_error", std::to_string(fine.u));
+  const Real order = std::log2(coarse.u / fine.u), p_order = std::log2(coarse.p / fine.p);
+  std::printf("Taylor-Green u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", coarse.u, fine.u, order,
+              coarse.p, fine.p, p_order);
+  EXPECT_GE(order, 1.9);
+  EXPECT_GE(p_order, 1.5);
+}
+
+Errors kovasznay(Index n) {
+  constexpr Real nu = 1.0 / 40;
+  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
+  const auto u = [lam](const Vec3& y) {
+    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
+    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
+                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
+  };
+  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
+  const Mesh mesh = test::box_mesh({.n = {n, n, 0}});
+  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
+  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+                {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
+  solver.start(u);
+  const Real dt = 0.2 / n;
+  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
+  return errors(solver, u, p);
+}
+
+TEST(ExactFlows, KovasznayOrder) {
+  const Errors coarse = kovasznay(16), fine = kovasznay(32);
+  const Real order = std::log2(coarse.u / fine.u), p_order = std::log2(coarse.p / fine.p);
+  std::printf("Kovasznay u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", coarse.u, fine.u, order,
+              coarse.p, fine.p, p_order);
+  EXPECT_GE(order, 1.9);
+  EXPECT_GE(p_order, 1.5);
+}
+
+TEST(ExactFlows, AChannelHoldsItsMeanAndFindsPoiseuille) {
+  const Index n = 16;
+  const Mesh mesh = test::box_mesh({.n = {4, n, 0}, .periodic = {true, false, false}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+                {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}, .mean_velocity = 0.5});
+  solver.start([](const Vec3&) { return Vec3{0.5, 0, 0}; });
+  for (int i = 0; i < 400; ++i) {
+    solver.step(0.02);
+    ASSERT_NEAR(solver.mean_velocity(), 0.5, 1e-13);
+  }
+  // u = 6 U y (1 - y), S = 12 mu U; the wall cells' one-sided shear makes S of order h^2.
+  EXPECT_NEAR(solver.driving_gradient(), 0.6, 0.6 * 2.0 / (n * n));
+}
+
+TEST(ExactFlows, RestStaysAtRest) {
+  const Mesh mesh = test::box_mesh({.n = {6, 6, 6}});
+  Conditions walls;
+  for (const Patch& patch : mesh.patches) walls[patch.name] = Wall{};
+  Solver solver(mesh, {}, {.conditions = walls});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < 3; ++i) solver.step(0.1);
+  for (Index c = 0; c < mesh.n_cells; ++c) ASSERT_EQ(norm(solver.state().u[c]), 0);
+}
+
+}  // namespace
+}  // namespace fsi
