@@ -1,0 +1,36 @@
+#include "libfsi/core/clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsi {
+
+// A time counts as a multiple when it is within this part of an interval: sums of steps round.
+constexpr Real tolerance = 1e-9;
+
+std::int64_t Every::index(Real t) const {
+  return static_cast<std::int64_t>(std::floor(t / interval_ + tolerance));
+}
+
+bool Every::due(Real t) {
+  if (interval_ <= 0 || index(t) <= done_) return false;
+  done_ = index(t);
+  return true;
+}
+
+Real Every::next(Real t) const {
+  return interval_ <= 0 ? std::numeric_limits<Real>::max()
+                        : static_cast<Real>(index(t) + 1) * interval_;
+}
+
+void Every::resume(Real t) {
+  if (interval_ > 0) done_ = index(t);
+}
+
+Real Clock::step(Real limit, Real event) const {
+  const Real rest = std::min(end_, event) - t_;
+  if (rest <= limit * (1 + tolerance)) return rest;
+  return rest < 2 * limit ? rest / 2 : limit;
+}
+
+}  // namespace fsi

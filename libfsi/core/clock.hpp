@@ -1,0 +1,67 @@
+#pragma once
+// Simulated time, events at fixed intervals, and wall time.
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// A limit on the time step and what sets it.
+struct Limit {
+  Real dt = std::numeric_limits<Real>::max();
+  std::string name = "none";
+};
+
+/// The smaller of two limits.
+inline Limit tighter(const Limit& a, const Limit& b) { return b.dt < a.dt ? b : a; }
+
+/// An event at every multiple of an interval of simulated time; interval <= 0: never.
+class Every {
+ public:
+  explicit Every(Real interval) : interval_(interval) {}
+  /// Whether a multiple was reached since the last time this was true. At t = 0: true.
+  bool due(Real t);
+  /// Time of the next event after t.
+  Real next(Real t) const;
+  /// For a restart at t: what lies before is done.
+  void resume(Real t);
+
+ private:
+  std::int64_t index(Real t) const;
+  Real interval_;
+  std::int64_t done_ = -1;
+};
+
+/// Time runs from 0 to end; the last step lands on it.
+class Clock {
+ public:
+  explicit Clock(Real end, Real t = 0) : end_(end), t_(t) {}
+  bool running() const { return t_ < end_ * (1 - 1e-14); }
+  Real t() const { return t_; }
+  Real end() const { return end_; }
+  /// The step from t that hits `event` (or the end) when it lies within reach of `limit`; a rest of
+  /// less than a step is split in two so that no tiny step is left.
+  Real step(Real limit, Real event) const;
+  /// Sets the time reached.
+  void set(Real t) { t_ = t; }
+
+ private:
+  Real end_, t_;
+};
+
+/// Seconds since construction.
+class Stopwatch {
+ public:
+  Real seconds() const {
+    return std::chrono::duration<Real>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace fsi

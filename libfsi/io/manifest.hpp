@@ -1,0 +1,28 @@
+#pragma once
+// What a run was and how it ended: run.yaml and summary.json; the progress line.
+
+#include <map>
+#include <string>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi::io {
+
+/// The content of summary.json (see the documentation of the output files).
+struct Summary {
+  std::string case_name, status = "failed", message;
+  GlobalIndex cells = 0;
+  int ranks = 1;
+  std::int64_t steps = 0, rejected_steps = 0;
+  Real t = 0, wall_seconds = 0, solid_volume_drift = 0, divergence_max = 0;
+  std::map<std::string, Real> phases;  ///< seconds
+};
+
+/// Collective. Makes the directory. Errors: Error{io}.
+void make_directory(const std::string& directory);
+/// Collective. Writes `text` to a file through a temporary one. Errors: Error{io}.
+void write_text(const std::string& file, const std::string& text);
+/// summary.json as text; a number that is not finite becomes null.
+std::string json(const Summary& summary);
+
+}  // namespace fsi::io

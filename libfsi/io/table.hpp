@@ -1,0 +1,33 @@
+#pragma once
+// Time series as csv.
+
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi::io {
+
+/// A csv file of named columns, written by rank 0, 17 significant digits, flushed row by row.
+/// Invariant: the file holds a header and whole rows of finite numbers.
+class Table {
+ public:
+  /// Collective. Creates the file, or with resume_at keeps the rows whose first column (the time) is
+  /// not beyond it. Errors: Error{io} when it cannot be written.
+  Table(const std::string& file, std::vector<std::string> columns);
+  Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
+
+  /// Collective; rank 0's values are written. Errors: Error{numerics} naming the column of a value
+  /// that is not finite; nothing is then written. Error{io}.
+  void row(std::span<const Real> values);
+
+ private:
+  void open(std::ios::openmode mode);
+  std::string file_;
+  std::vector<std::string> columns_;
+  std::ofstream stream_;
+};
+
+}  // namespace fsi::io
