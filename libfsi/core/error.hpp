@@ -11,10 +11,10 @@ namespace fsi {
 
 /// What went wrong, as the exit code a sweep script sees.
 enum class Kind : int {
-  input = 2,       ///< the user's options, mesh or files: names the culprit and the valid choices
-  numerics = 3,    ///< a solve failed or a field is not finite, after all retries
-  io = 4,          ///< a file could not be read or written
-  internal = 70,   ///< a library call failed or an assumption of the code does not hold
+  input = 2,      ///< the user's options, mesh or files: names the culprit and the valid choices
+  numerics = 3,   ///< a solve failed or a field is not finite, after all retries
+  io = 4,         ///< a file could not be read or written
+  internal = 70,  ///< a library call failed or an assumption of the code does not hold
 };
 
 /// The one exception type: a sentence for the user and its kind.
@@ -38,9 +38,9 @@ inline void require(bool ok, const std::string& sentence) {
 }  // namespace fsi
 
 /// Every PETSc call goes through here: a non-zero code becomes an exception.
-#define FSI_PETSC(...)                                                           \
-  do {                                                                           \
-    const PetscErrorCode fsi_code_ = __VA_ARGS__;                                \
+#define FSI_PETSC(...)                                                                    \
+  do {                                                                                    \
+    const PetscErrorCode fsi_code_ = __VA_ARGS__;                                         \
     if (fsi_code_ != 0) ::fsi::petsc_failed(fsi_code_, #__VA_ARGS__, __FILE__, __LINE__); \
   } while (false)
 
@@ -48,11 +48,11 @@ inline void require(bool ok, const std::string& sentence) {
 #define FSI_ASSERT(condition) static_cast<void>(0)
 #else
 /// Programming error: checked in debug builds only.
-#define FSI_ASSERT(condition)                                                        \
-  do {                                                                               \
-    if (!(condition))                                                                \
-      throw ::fsi::Error(::fsi::Kind::internal, std::string(__FILE__) + ":" +        \
-                                                    std::to_string(__LINE__) +       \
+#define FSI_ASSERT(condition)                                                           \
+  do {                                                                                  \
+    if (!(condition))                                                                   \
+      throw ::fsi::Error(::fsi::Kind::internal, std::string(__FILE__) + ":" +           \
+                                                    std::to_string(__LINE__) +          \
                                                     ": assertion failed: " #condition); \
   } while (false)
 #endif

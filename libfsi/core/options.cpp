@@ -33,14 +33,16 @@ std::string number(Real value) {
 std::optional<std::string> raw(const std::string& name) {
   char text[4096] = "";
   PetscBool given = PETSC_FALSE;
-  FSI_PETSC(PetscOptionsGetString(nullptr, nullptr, ("-" + name).c_str(), text, sizeof text, &given));
+  FSI_PETSC(
+      PetscOptionsGetString(nullptr, nullptr, ("-" + name).c_str(), text, sizeof text, &given));
   if (given == PETSC_FALSE) return std::nullopt;
   return std::string(text);
 }
 
 std::string range(const Spec& spec) {
-  if (spec.positive) return spec.max < std::numeric_limits<Real>::infinity()
-                                ? "0 < value <= " + number(spec.max) : "value > 0";
+  if (spec.positive)
+    return spec.max < std::numeric_limits<Real>::infinity() ? "0 < value <= " + number(spec.max)
+                                                            : "value > 0";
   const bool low = std::isfinite(spec.min), high = std::isfinite(spec.max);
   if (low && high) return number(spec.min) + " <= value <= " + number(spec.max);
   if (low) return "value >= " + number(spec.min);
@@ -49,8 +51,8 @@ std::string range(const Spec& spec) {
 }
 
 Real parse(const std::string& name, const std::string& text, const Spec& spec) {
-  const std::string sentence = "option -" + name + ": \"" + text + "\" is not valid; expected " + range(spec) +
-                               (spec.unit.empty() ? "" : " [" + spec.unit + "]");
+  const std::string sentence = "option -" + name + ": \"" + text + "\" is not valid; expected " +
+                               range(spec) + (spec.unit.empty() ? "" : " [" + spec.unit + "]");
   char* end = nullptr;
   const Real value = std::strtod(text.c_str(), &end);
   require(!text.empty() && *end == '\0' && std::isfinite(value), sentence);
@@ -104,10 +106,35 @@ std::vector<std::string> unread() {
 
 /// Options of PETSc itself, which it reads when it needs them: solver prefixes, logging, memory.
 bool of_petsc(const std::string& name) {
-  for (const char* prefix : {"p_", "u_", "ksp_", "pc_", "mat_", "vec_", "log_", "malloc", "options_", "petsc",
-                             "use_", "fp_trap", "on_error", "start_in_debugger", "info", "citations",
-                             "error_output", "memory_", "viewer_", "skip_petscrc", "help", "dm_", "sf_",
-                             "mumps_", "history", "debug_", "stop_for_debugger", "display", "version"})
+  for (const char* prefix : {"p_",
+                             "u_",
+                             "ksp_",
+                             "pc_",
+                             "mat_",
+                             "vec_",
+                             "log_",
+                             "malloc",
+                             "options_",
+                             "petsc",
+                             "use_",
+                             "fp_trap",
+                             "on_error",
+                             "start_in_debugger",
+                             "info",
+                             "citations",
+                             "error_output",
+                             "memory_",
+                             "viewer_",
+                             "skip_petscrc",
+                             "help",
+                             "dm_",
+                             "sf_",
+                             "mumps_",
+                             "history",
+                             "debug_",
+                             "stop_for_debugger",
+                             "display",
+                             "version"})
     if (name.starts_with(prefix)) return true;
   return false;
 }
@@ -119,20 +146,22 @@ Options::Options(std::string program, std::string purpose) : program_(std::move(
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, "-help", &help));
   help_ = help == PETSC_TRUE;
   if (help_)
-    FSI_PETSC(PetscPrintf(comm(), "%s: %s\n\noptions (default):\n", program_.c_str(), purpose.c_str()));
+    FSI_PETSC(
+        PetscPrintf(comm(), "%s: %s\n\noptions (default):\n", program_.c_str(), purpose.c_str()));
 }
 
 const Options::Entry& Options::record(Entry entry) {
   if (help_)
-    FSI_PETSC(PetscPrintf(comm(), "  -%-28s (%s)\n      %s\n", entry.name.c_str(), entry.value.c_str(),
-                          entry.help.c_str()));
+    FSI_PETSC(PetscPrintf(comm(), "  -%-28s (%s)\n      %s\n", entry.name.c_str(),
+                          entry.value.c_str(), entry.help.c_str()));
   return entries_.emplace_back(std::move(entry));
 }
 
 Real Options::real(const std::string& name, Real fallback, const Spec& spec) {
   const auto text = raw(name);
   const Real value = text ? parse(name, *text, spec) : fallback;
-  record({name, number(value), spec.help + (spec.unit.empty() ? "" : " [" + spec.unit + "]") + "; " + range(spec)});
+  record({name, number(value),
+          spec.help + (spec.unit.empty() ? "" : " [" + spec.unit + "]") + "; " + range(spec)});
   return value;
 }
 
@@ -151,7 +180,8 @@ bool Options::flag(const std::string& name, bool fallback, const std::string& he
   return value == "true" || value == "1" || value == "yes" || value == "on" || value.empty();
 }
 
-std::string Options::text(const std::string& name, const std::string& fallback, const std::string& help) {
+std::string Options::text(const std::string& name, const std::string& fallback,
+                          const std::string& help) {
   const auto given = raw(name);
   require(!given || !given->empty(), "option -" + name + " needs a value: " + help);
   record({name, given.value_or(fallback), help});
@@ -172,7 +202,8 @@ Vec3 Options::vec3(const std::string& name, const Vec3& fallback, const Spec& sp
   Vec3 value = fallback;
   if (text) {
     const std::vector<std::string> items = split(*text);
-    require(items.size() == 3, "option -" + name + ": \"" + *text + "\" has " + std::to_string(items.size()) +
+    require(items.size() == 3, "option -" + name + ": \"" + *text + "\" has " +
+                                   std::to_string(items.size()) +
                                    " numbers; expected three, x,y,z");
     for (int i = 0; i < 3; ++i) value[i] = parse(name, items[static_cast<std::size_t>(i)], spec);
   }
@@ -200,9 +231,10 @@ void Options::check_unknown() const {
   std::string sentence;
   for (const std::string& name : unread()) {
     if (of_petsc(name)) continue;
-    const auto nearest = std::min_element(entries_.begin(), entries_.end(), [&](const Entry& a, const Entry& b) {
-      return distance(name, a.name) < distance(name, b.name);
-    });
+    const auto nearest =
+        std::min_element(entries_.begin(), entries_.end(), [&](const Entry& a, const Entry& b) {
+          return distance(name, a.name) < distance(name, b.name);
+        });
     sentence += (sentence.empty() ? "unknown option -" : ", -") + name;
     if (nearest != entries_.end()) sentence += " (nearest is -" + nearest->name + ")";
   }
@@ -213,10 +245,12 @@ void Options::check_unused() const {
   const std::vector<std::string> names = unread();
   std::string list;
   for (const std::string& name : names)
-    if (!name.starts_with("log_") && !name.starts_with("malloc") && !name.starts_with("options_left"))
+    if (!name.starts_with("log_") && !name.starts_with("malloc") &&
+        !name.starts_with("options_left"))
       list += (list.empty() ? "-" : ", -") + name;
-  require(list.empty(), "option " + list + " was read by nobody: no such solver option, or it does not apply "
-                        "to this run");
+  require(list.empty(), "option " + list +
+                            " was read by nobody: no such solver option, or it does not apply "
+                            "to this run");
 }
 
 std::string Options::yaml() const {

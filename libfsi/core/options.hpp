@@ -12,17 +12,17 @@ namespace fsi {
 
 /// What -help prints and what a value must satisfy.
 struct Spec {
-  std::string help;
-  std::string unit;                                       ///< e.g. "mass / (length time)"; "" where none
+  std::string help{};
+  std::string unit{};  ///< e.g. "mass / (length time)"; "" where none
   Real min = -std::numeric_limits<Real>::infinity();
   Real max = std::numeric_limits<Real>::infinity();
-  bool positive = false;                                  ///< strictly > 0
+  bool positive = false;  ///< strictly > 0
 };
 
 /// Reads options by name (without the dash) from PETSc's database: command line, YAML file,
 /// PETSC_OPTIONS. Every reader records name, resolved value and spec; with -help it prints them.
-/// Errors: Error{input} naming the option, the value found and the valid ones, for NaN, infinity, out
-/// of range, a wrong type, a missing value, a list of wrong length. All ranks throw alike.
+/// Errors: Error{input} naming the option, the value found and the valid ones, for NaN, infinity,
+/// out of range, a wrong type, a missing value, a list of wrong length. All ranks throw alike.
 class Options {
  public:
   /// `program` and `purpose` head the -help text.

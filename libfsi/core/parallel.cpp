@@ -55,7 +55,8 @@ void Sum::totals(std::span<Real> items, std::span<const Sum> parts) {
   MPI_Allgather(mine.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, comm());
   for (std::size_t i = 0; i < n; ++i) {
     Sum sum;
-    for (std::size_t r = 0; r < all.size(); r += 2 * n) sum.add(all[r + 2 * i]), sum.low_ += all[r + 2 * i + 1];
+    for (std::size_t r = 0; r < all.size(); r += 2 * n)
+      sum.add(all[r + 2 * i]), sum.low_ += all[r + 2 * i + 1];
     items[i] = sum.high_ + sum.low_;
   }
 }

@@ -7,8 +7,8 @@
 namespace fsi {
 
 using Real = double;
-using Index = std::int32_t;         ///< local cell, face or point number
-using GlobalIndex = std::int64_t;   ///< number that is the same on any count of ranks
+using Index = std::int32_t;        ///< local cell, face or point number
+using GlobalIndex = std::int64_t;  ///< number that is the same on any count of ranks
 
 /// A vector (x, y, z); z = 0 in a 2-D run.
 struct Vec3 {

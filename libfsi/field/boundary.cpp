@@ -22,8 +22,10 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
   std::vector<Condition> result;
   for (const Patch& patch : mesh.patches) {
     const auto found = conditions.find(patch.name);
-    require(found != conditions.end(), "patch \"" + patch.name + "\" of the mesh has no boundary "
-                                       "condition in this driver; join it by -mesh_periodic or rename it");
+    require(found != conditions.end(),
+            "patch \"" + patch.name +
+                "\" of the mesh has no boundary "
+                "condition in this driver; join it by -mesh_periodic or rename it");
     result.push_back(found->second);
   }
   for (const auto& [name, condition] : conditions) {

@@ -13,8 +13,8 @@ namespace fsi {
 
 /// Where the values of a field live.
 enum class On {
-  cells,     ///< [n_cells]: the owned part first (it can be the storage of a PETSc Vec), then the halo
-  faces,     ///< [n_faces]: internal faces, then the boundary
+  cells,  ///< [n_cells]: the owned part first (it can be the storage of a PETSc Vec), then the halo
+  faces,  ///< [n_faces]: internal faces, then the boundary
   boundary,  ///< [n_boundary]: item f - n_internal belongs to face f
 };
 

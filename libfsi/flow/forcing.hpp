@@ -9,8 +9,8 @@ namespace fsi::flow {
 /// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
 /// divergence-free, so adding a multiple of it keeps div u = 0:
 ///   c = (U - <phi>) / <phi_1>,   phi += c phi_1,   u += c u_1,   S += rho c / dt,
-/// where <phi> = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a divergence-free flux:
-/// the same through every section, so nothing happens when a particle crosses the seam.
+/// where <phi> = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a divergence-free
+/// flux: the same through every section, so nothing happens when a particle crosses the seam.
 class Forcing {
  public:
   Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity);

@@ -44,7 +44,8 @@ struct Sources {
 /// explicit viscous rest, theta = 1/2 for the compact viscous term), in increments w = u* - u^n:
 ///   rho V w / dt - theta sum_f mu g (w_N - w_P)
 ///     = -rho AB(conv) + visc(u^n) + AB(rest) + V (-grad p^n + f + S).
-/// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start leaves.
+/// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start
+/// leaves.
 class Momentum {
  public:
   Momentum(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
@@ -52,16 +53,17 @@ class Momentum {
 
   /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
   /// Returns iterations of all components. Errors: Error{numerics}.
-  int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
-              const CellField<Vec3>& grad_p, const CellField<Tensor>& L, const FaceField<Real>& phi,
-              const FaceField<Real>& mu, bool mu_varies, const Sources& sources, Real dt);
+  int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+              const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
+              const CellField<Tensor>& L, const FaceField<Real>& phi, const FaceField<Real>& mu,
+              bool mu_varies, const Sources& sources, Real dt);
 
   /// Explicit terms of the last step, and its length (0: none yet): part of a checkpoint.
   CellField<Vec3>& history() { return history_; }
   const CellField<Vec3>& history() const { return history_; }
   Real dt_old = 0;
   int steps_taken = 0;
-  Real theta = 0.5;           ///< after the first steps
+  Real theta = 0.5;  ///< after the first steps
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 
@@ -74,13 +76,15 @@ class Momentum {
   const FaceWeights& weights_;
   Real rho_, mu_0_;
   std::vector<char> open_face_;
-  std::vector<Vec3> implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
+  std::vector<Vec3>
+      implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   CellField<Vec3> history_, now_, rhs_;
   CellField<Real> w_;
   std::vector<Real> b_;
   FaceMatrix matrix_;
   std::vector<std::vector<Real>> diagonal_;  // one a system
-  std::vector<LinearSystem> systems_;  // one, or one a component where a slip plane tells them apart
+  std::vector<LinearSystem>
+      systems_;  // one, or one a component where a slip plane tells them apart
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

@@ -14,7 +14,9 @@ std::vector<bool> pressure_given(const std::vector<Condition>& conditions) {
   return given;
 }
 
-bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
+bool any(const std::vector<bool>& flags) {
+  return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
 
 }  // namespace
 
@@ -29,7 +31,8 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     const Real lambda = weights.lambda[f];
     Vec3 u_f = u[P] + lambda * (u[N] - u[P]);
     if (weights.skewed)
-      u_f += (1 - lambda) * dot(terms.L[P], weights.skew[f]) + lambda * dot(terms.L[N], weights.skew[f]);
+      u_f += (1 - lambda) * dot(terms.L[P], weights.skew[f]) +
+             lambda * dot(terms.L[N], weights.skew[f]);
     const Vec3 grad_f = (1 - lambda) * terms.grad_p[P] + lambda * terms.grad_p[N];
     const Real brace = dot(grad_f, mesh.d[f]) - (terms.p[N] - terms.p[P]) + terms.balance[f];
     phi[f] = dot(u_f, mesh.Sf[f]) + damped(f) * weights.g[f] * brace;
@@ -58,7 +61,8 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
-      adjustable_[f - mesh.n_internal] = std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
+      adjustable_[f - mesh.n_internal] =
+          std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
     }
   Sum area;
   for (Index b = 0; b < mesh.n_boundary(); ++b)
@@ -101,7 +105,8 @@ void Projection::outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad
     }
     const Index N = mesh_.neighbour[f];
     if (correct)
-      flux -= dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
+      flux -=
+          dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
     if (P < mesh_.n_owned) b_[P] -= flux;
     if (N < mesh_.n_owned) b_[N] += flux;
   }
@@ -125,7 +130,8 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     phi[f] -= weights_.g[f] * (q[N] - q[P]);
     if (correct)
-      phi[f] -= dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
+      phi[f] -=
+          dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
   }
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
     if (open_face_[f - mesh_.n_internal] == 0) continue;

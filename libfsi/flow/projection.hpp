@@ -15,9 +15,10 @@ namespace fsi::flow {
 struct FluxTerms {
   const CellField<Real>& p;
   const CellField<Vec3>& grad_p;
-  const BoundaryField<Real>& p_b;    ///< read on openings only
-  const CellField<Tensor>& L;        ///< velocity gradient, read on skewed meshes only
-  const FaceField<Real>& balance;    ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
+  const BoundaryField<Real>& p_b;  ///< read on openings only
+  const CellField<Tensor>& L;      ///< velocity gradient, read on skewed meshes only
+  const FaceField<Real>&
+      balance;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
   const FaceField<Real>& mu;
   Real theta = 0.5, rho = 1, dt = 0;
 };

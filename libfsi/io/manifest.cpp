@@ -33,7 +33,8 @@ void make_directory(const std::string& directory) {
   std::error_code code;
   if (rank() == 0) std::filesystem::create_directories(directory, code);
   if (!all_of_ranks(!code))
-    throw Error(Kind::io, "directory \"" + directory + "\" cannot be made: " + broadcast(code.message()));
+    throw Error(Kind::io,
+                "directory \"" + directory + "\" cannot be made: " + broadcast(code.message()));
 }
 
 void write_text(const std::string& file, const std::string& text) {
@@ -58,12 +59,14 @@ std::string json(const Summary& s) {
     phases += (phases.empty() ? "" : ", ") + quoted(name) + ": " + number(seconds);
   return "{\n  \"case\": " + quoted(s.case_name) + ",\n  \"status\": " + quoted(s.status) +
          ",\n  \"message\": " + quoted(s.message) + ",\n  \"cells\": " + std::to_string(s.cells) +
-         ",\n  \"ranks\": " + std::to_string(s.ranks) + ",\n  \"steps\": " + std::to_string(s.steps) +
-         ",\n  \"t\": " + number(s.t) + ",\n  \"rejected_steps\": " + std::to_string(s.rejected_steps) +
-         ",\n  \"wall_seconds\": " + number(s.wall_seconds) + ",\n  \"us_per_cell_step\": " +
-         number(work > 0 ? 1e6 * s.wall_seconds / work : 0) + ",\n  \"phases\": {" + phases +
-         "},\n  \"solid_volume_drift\": " + number(s.solid_volume_drift) + ",\n  \"divergence_max\": " +
-         number(s.divergence_max) + "\n}\n";
+         ",\n  \"ranks\": " + std::to_string(s.ranks) +
+         ",\n  \"steps\": " + std::to_string(s.steps) + ",\n  \"t\": " + number(s.t) +
+         ",\n  \"rejected_steps\": " + std::to_string(s.rejected_steps) +
+         ",\n  \"wall_seconds\": " + number(s.wall_seconds) +
+         ",\n  \"us_per_cell_step\": " + number(work > 0 ? 1e6 * s.wall_seconds / work : 0) +
+         ",\n  \"phases\": {" + phases +
+         "},\n  \"solid_volume_drift\": " + number(s.solid_volume_drift) +
+         ",\n  \"divergence_max\": " + number(s.divergence_max) + "\n}\n";
 }
 
 }  // namespace fsi::io

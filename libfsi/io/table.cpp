@@ -24,11 +24,14 @@ Table::Table(const std::string& file, std::vector<std::string> columns, Real res
     std::string line;
     if (std::getline(old, line)) kept = line + "\n";
     while (std::getline(old, line))
-      if (!old.eof() && std::strtod(line.c_str(), nullptr) <= resume_at * (1 + 1e-12)) kept += line + "\n";
+      if (!old.eof() && std::strtod(line.c_str(), nullptr) <= resume_at * (1 + 1e-12))
+        kept += line + "\n";
   }
   open(std::ios::trunc);
-  if (kept.empty())
-    for (std::size_t i = 0; i < columns_.size(); ++i) kept += (i > 0 ? "," : "") + columns_[i] + (i + 1 == columns_.size() ? "\n" : "");
+  if (kept.empty()) {
+    for (const std::string& column : columns_) kept += column + ',';
+    kept.back() = '\n';
+  }
   stream_ << kept << std::flush;
 }
 
@@ -45,7 +48,8 @@ void Table::row(std::span<const Real> values) {
     if (!std::isfinite(values[i])) culprit = columns_[i];
     char text[32];
     std::snprintf(text, sizeof text, "%.17g", values[i]);
-    line += (i > 0 ? "," : "") + std::string(text);
+    if (i > 0) line += ',';
+    line += text;
   }
   culprit = broadcast(culprit);
   if (!culprit.empty())

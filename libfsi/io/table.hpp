@@ -14,8 +14,8 @@ namespace fsi::io {
 /// Invariant: the file holds a header and whole rows of finite numbers.
 class Table {
  public:
-  /// Collective. Creates the file, or with resume_at keeps the rows whose first column (the time) is
-  /// not beyond it. Errors: Error{io} when it cannot be written.
+  /// Collective. Creates the file, or with resume_at keeps the rows whose first column (the time)
+  /// is not beyond it. Errors: Error{io} when it cannot be written.
   Table(const std::string& file, std::vector<std::string> columns);
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 

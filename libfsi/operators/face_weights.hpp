@@ -16,11 +16,11 @@ struct FaceWeights {
   /// Collective.
   explicit FaceWeights(const Mesh& mesh);
 
-  std::vector<Real> lambda;  ///< [n_internal]
-  std::vector<Vec3> skew;    ///< [n_internal]
-  std::vector<Real> g;       ///< [n_faces]
-  std::vector<Vec3> k;       ///< [n_faces]
-  bool skewed = false;       ///< any |skew| above round-off, on any rank
+  std::vector<Real> lambda;     ///< [n_internal]
+  std::vector<Vec3> skew;       ///< [n_internal]
+  std::vector<Real> g;          ///< [n_faces]
+  std::vector<Vec3> k;          ///< [n_faces]
+  bool skewed = false;          ///< any |skew| above round-off, on any rank
   bool non_orthogonal = false;  ///< any |k| above round-off, on any rank
 };
 

@@ -14,7 +14,7 @@ namespace fsi {
 struct LinearSystem::Handles {
   const Mesh& mesh;
   std::string name;
-  bool pinned = false;       ///< direct and singular: one diagonal entry is doubled
+  bool pinned = false;  ///< direct and singular: one diagonal entry is doubled
   bool null_space = false;
   Real relative_tolerance = 0;
   Mat matrix = nullptr;
@@ -28,10 +28,10 @@ struct LinearSystem::Handles {
   Handles& operator=(const Handles&) = delete;
   ~Handles() {
     // Nothing useful can be done with a code here, and a destructor must not throw.
-    static_cast<void>(KSPDestroy(&solver));   // layers: destructor
-    static_cast<void>(MatDestroy(&matrix));   // layers: destructor
-    static_cast<void>(VecDestroy(&x));        // layers: destructor
-    static_cast<void>(VecDestroy(&b));        // layers: destructor
+    static_cast<void>(KSPDestroy(&solver));  // layers: destructor
+    static_cast<void>(MatDestroy(&matrix));  // layers: destructor
+    static_cast<void>(VecDestroy(&x));       // layers: destructor
+    static_cast<void>(VecDestroy(&b));       // layers: destructor
   }
 };
 
@@ -98,8 +98,8 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   const std::vector<PetscInt> row = global_rows(mesh);
   std::vector<PetscInt> i(row.begin(), row.begin() + mesh.n_owned), j = i;
   for (Index f = 0; f < mesh.n_internal; ++f)
-    for (const auto& [c, other] : {std::pair{mesh.owner[f], mesh.neighbour[f]},
-                                   std::pair{mesh.neighbour[f], mesh.owner[f]}})
+    for (const auto& [c, other] :
+         {std::pair{mesh.owner[f], mesh.neighbour[f]}, std::pair{mesh.neighbour[f], mesh.owner[f]}})
       if (c < mesh.n_owned) {
         i.push_back(row[c]), j.push_back(row[other]);
         h.rows.emplace_back(f, c);
@@ -109,7 +109,8 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(MatCreate(comm(), &h.matrix));
   FSI_PETSC(MatSetSizes(h.matrix, mesh.n_owned, mesh.n_owned, PETSC_DETERMINE, PETSC_DETERMINE));
   FSI_PETSC(MatSetType(h.matrix, MATAIJ));
-  FSI_PETSC(MatSetPreallocationCOO(h.matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+  FSI_PETSC(
+      MatSetPreallocationCOO(h.matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
   FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRIC, PETSC_TRUE));
   FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   FSI_PETSC(MatSetOption(h.matrix, MAT_SPD, PETSC_TRUE));
@@ -140,7 +141,8 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   // A pinned singular system with a right-hand side of zero sum has the solution that vanishes in
   // the pinned cell: summing all rows leaves a_00 x_0 = 0.
   if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
-  for (std::size_t e = 0; e < h.rows.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.rows[e].first];
+  for (std::size_t e = 0; e < h.rows.size(); ++e)
+    h.values[n + e] = matrix.off_diagonal[h.rows[e].first];
   FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
 }
 
@@ -167,9 +169,9 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute) 
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics, "system \"" + h.name + "\" did not converge: " +
-                                    KSPConvergedReasons[reason] + " after " + std::to_string(its) +
-                                    " iterations");
+    throw Error(Kind::numerics, "system \"" + h.name +
+                                    "\" did not converge: " + KSPConvergedReasons[reason] +
+                                    " after " + std::to_string(its) + " iterations");
   h.mesh.halo.update(x);
   return result;
 }

@@ -46,8 +46,9 @@ class LinearSystem {
   /// Collective. Sets the values; the preconditioner is renewed at the next solve.
   void assemble(const FaceMatrix& matrix);
   /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
-  /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <= max(relative_tolerance |b|, absolute).
-  /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
+  /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
+  /// max(relative_tolerance |b|, absolute). Errors: Error{numerics} with the system's name and
+  /// PETSc's reason when it does not converge.
   Solve solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0);
 
  private:

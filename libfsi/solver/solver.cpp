@@ -38,7 +38,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       mu_(mesh, physics.mu_f),
       balance_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
-      projection_(mesh, weights_, conditions_, pressure_method(mesh), setup.non_orthogonal_correctors),
+      projection_(mesh, weights_, conditions_, pressure_method(mesh),
+                  setup.non_orthogonal_correctors),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
@@ -77,26 +78,27 @@ void Solver::step(Real dt) {
 void Solver::update_gradients() {
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  if (weights_.skewed || weights_.non_orthogonal)
-    gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  if (weights_.skewed || weights_.non_orthogonal) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
 }
 
 void Solver::predict_momentum(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
-  report_.velocity_iterations =
-      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, false, {force_, body}, dt);
+  report_.velocity_iterations = momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi,
+                                                  mu_, false, {force_, body}, dt);
 }
 
 void Solver::predict_flux(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_, balance_, mu_, momentum_.theta, physics_.rho, dt};
+  const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_,
+                              mu_,      momentum_.theta, physics_.rho, dt};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 
 void Solver::project(Real dt) {
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
-  const Solve solve = projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
+  const Solve solve =
+      projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
@@ -111,11 +113,10 @@ void Solver::hold_mean_velocity(Real dt) {
 
 void Solver::check_finite() const {
   Real sum = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
+  for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (!all_of_ranks(std::isfinite(sum)))
-    throw Error(Kind::numerics, "velocity or pressure is not finite after step " +
-                                    std::to_string(state_.step + 1));
+    throw Error(Kind::numerics,
+                "velocity or pressure is not finite after step " + std::to_string(state_.step + 1));
 }
 
 Real Solver::advective_dt(Real courant) const {

@@ -17,17 +17,17 @@ namespace fsi {
 
 /// Material constants, in consistent units.
 struct Physics {
-  Real rho = 1;     ///< density of fluid and solid
-  Real mu_f = 0.01; ///< dynamic viscosity of the fluid
-  Real mu_s = 0.01; ///< of the solid
-  Real G = 0;       ///< shear modulus of the solid
+  Real rho = 1;      ///< density of fluid and solid
+  Real mu_f = 0.01;  ///< dynamic viscosity of the fluid
+  Real mu_s = 0.01;  ///< of the solid
+  Real G = 0;        ///< shear modulus of the solid
 };
 
 /// What drives and how the flow is solved.
 struct FlowSetup {
   Conditions conditions{};
-  Vec3 axis{1, 0, 0};                  ///< of the mean velocity
-  std::optional<Real> mean_velocity{}; ///< held exactly in a periodic channel
+  Vec3 axis{1, 0, 0};                   ///< of the mean velocity
+  std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
   int non_orthogonal_correctors = 1;
 };
 
@@ -36,8 +36,8 @@ struct State {
   explicit State(const Mesh& mesh) : u(mesh), p(mesh), alpha(mesh), phi(mesh) {}
   CellField<Vec3> u;
   CellField<Real> p;
-  CellField<Real> alpha;   ///< volume fraction of the solid
-  FaceField<Real> phi;     ///< volume flux, divergence-free to the solver's tolerance
+  CellField<Real> alpha;  ///< volume fraction of the solid
+  FaceField<Real> phi;    ///< volume flux, divergence-free to the solver's tolerance
   Real t = 0;
   std::int64_t step = 0;
 };
@@ -48,7 +48,8 @@ struct StepReport {
   Real pressure_residual = 0;
 };
 
-/// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates nothing.
+/// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates
+/// nothing.
 class Solver {
  public:
   /// Collective. mesh must outlive the solver.

@@ -25,7 +25,9 @@ std::string sentence(const char* arguments, F read) {
   return text;
 }
 
-void viscosity(Options& options) { options.real("fluid_viscosity", 1, {.help = "mu", .unit = "", .positive = true}); }
+void viscosity(Options& options) {
+  options.real("fluid_viscosity", 1, {.help = "mu", .unit = "", .positive = true});
+}
 
 TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
   FSI_PETSC(PetscOptionsClear(nullptr));
@@ -43,7 +45,8 @@ TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
 
 TEST(Options, BadValuesNameTheOptionAndTheRange) {
   for (const char* value : {"nan", "inf", "-1", "0", "abc", "1.0x", "1e999"}) {
-    const std::string text = sentence(("-fluid_viscosity " + std::string(value)).c_str(), viscosity);
+    const std::string text =
+        sentence(("-fluid_viscosity " + std::string(value)).c_str(), viscosity);
     EXPECT_NE(text.find("-fluid_viscosity"), std::string::npos) << value;
     EXPECT_NE(text.find("value > 0"), std::string::npos) << value;
   }
@@ -64,7 +67,8 @@ TEST(Options, AChoiceListsTheValidOnes) {
 
 TEST(Options, AnUnknownNameIsAnErrorWithTheNearestOne) {
   const auto read = [](Options& o) { viscosity(o), o.check_unknown(); };
-  EXPECT_NE(sentence("-fluid_viscocity 1", read).find("nearest is -fluid_viscosity"), std::string::npos);
+  EXPECT_NE(sentence("-fluid_viscocity 1", read).find("nearest is -fluid_viscosity"),
+            std::string::npos);
   EXPECT_EQ(sentence("-fluid_viscosity 1 -p_ksp_monitor", read), "");
 }
 

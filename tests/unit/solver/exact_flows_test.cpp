@@ -41,7 +41,8 @@ Errors taylor_green(Index n, int steps) {
   Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu}, {});
   const auto u = [](const Vec3& x, Real t) {
     const Real F = std::exp(-2 * nu * k * k * t);
-    return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * F, -std::cos(k * x.x) * std::sin(k * x.y) * F, 0};
+    return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * F,
+                -std::cos(k * x.x) * std::sin(k * x.y) * F, 0};
   };
   const auto p = [](const Vec3& x, Real t) {
     const Real F = std::exp(-2 * nu * k * k * t);
@@ -50,8 +51,9 @@ Errors taylor_green(Index n, int steps) {
   solver.start([&](const Vec3& x) { return u(x, 0); });
   for (int i = 0; i < steps; ++i) solver.step(t_end / steps);
   EXPECT_LE(flow::divergence_max(solver.state().phi, mesh), 1e-6);
-  return errors(solver, [&](const Vec3& x) { return u(x, t_end); },
-                [&](const Vec3& x) { return p(x, t_end - t_end / steps / 2); });
+  return errors(
+      solver, [&](const Vec3& x) { return u(x, t_end); },
+      [&](const Vec3& x) { return p(x, t_end - t_end / steps / 2); });
 }
 
 // Small steps: the Rhie-Chow flux carries an error of order dt h^2 that would hide the spatial one.
@@ -60,8 +62,8 @@ TEST(ExactFlows, TaylorGreenOrder) {
   const Errors coarse = taylor_green(32, 1000), fine = taylor_green(64, 2000);
   RecordProperty("u_error", std::to_string(fine.u));
   const Real order = std::log2(coarse.u / fine.u), p_order = std::log2(coarse.p / fine.p);
-  std::printf("Taylor-Green u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", coarse.u, fine.u, order,
-              coarse.p, fine.p, p_order);
+  std::printf("Taylor-Green u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", coarse.u, fine.u,
+              order, coarse.p, fine.p, p_order);
   EXPECT_GE(order, 1.9);
   EXPECT_GE(p_order, 1.5);
 }
@@ -77,8 +79,9 @@ Errors kovasznay(Index n) {
   const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
   const Mesh mesh = test::box_mesh({.n = {n, n, 0}});
   const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
-  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
-                {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
   solver.start(u);
   const Real dt = 0.2 / n;
   for (int i = 0; i * dt < 3; ++i) solver.step(dt);

@@ -27,7 +27,8 @@ struct Builder {
 
   /// Row of the table of translations for a jump of whole box lengths.
   Index translation(const Cell& jump) {
-    const Vec3 t{jump[0] * box.length.x, jump[1] * box.length.y, dim == 3 ? jump[2] * box.length.z : 0};
+    const Vec3 t{jump[0] * box.length.x, jump[1] * box.length.y,
+                 dim == 3 ? jump[2] * box.length.z : 0};
     for (std::size_t row = 0; row < mesh.translation.size(); ++row)
       if (mesh.translation[row] == t) return static_cast<Index>(row);
     mesh.translation.push_back(t);
@@ -110,7 +111,8 @@ struct Builder {
     if (dim == 3)
       corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
     else
-      corners = face.axis == 0 ? std::vector{corner(0, 0), corner(1, 0)} : std::vector{corner(0, 1), corner(0, 0)};
+      corners = face.axis == 0 ? std::vector{corner(0, 0), corner(1, 0)}
+                               : std::vector{corner(0, 1), corner(0, 0)};
     if (face.sign < 0) std::reverse(corners.begin(), corners.end());
     for (const Cell& p : corners) mesh.face_points.index.push_back(point(p));
     mesh.face_points.offset.push_back(static_cast<Index>(mesh.face_points.index.size()));
@@ -160,7 +162,8 @@ Mesh box_mesh(const Box& box) {
     const Index count = static_cast<Index>(std::count_if(
         faces.begin(), faces.end(), [p](const Builder::Face& face) { return face.patch == p; }));
     const std::array names{"left", "right", "bottom", "top", "back", "front"};
-    if (count > 0) mesh.patches.push_back({names[static_cast<std::size_t>(p)], begin, begin + count});
+    if (count > 0)
+      mesh.patches.push_back({names[static_cast<std::size_t>(p)], begin, begin + count});
     begin += count;
   }
   builder.connect();
