@@ -16,7 +16,8 @@ FLOORS = {
 PETSC_HOMES = ("libfsi/core/", "libfsi/mesh/plex", "libfsi/mesh/halo",
                "libfsi/operators/linear_system", "libfsi/io/")
 PETSC_CALL = re.compile(r"\b(?:Petsc|KSP|PC|Mat|Vec|DM|IS)(?!Call)[A-Z]\w*\s*\(")
-PETSC_CASTS = ("PetscInt", "PetscReal", "PetscScalar", "PetscErrorCode", "PetscBool")
+PETSC_CASTS = ("PetscInt", "PetscReal", "PetscScalar", "PetscErrorCode", "PetscBool",
+               "PetscCheck", "PetscFunctionReturn", "PetscObjectComm")
 # A code is checked when it goes through one of these, is returned, compared or kept; a destructor
 # may discard it, and says so by the cast.
 PETSC_CHECKED = re.compile(
