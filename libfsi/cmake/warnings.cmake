@@ -6,4 +6,5 @@ target_compile_options(fsi_flags INTERFACE -ffp-contract=off -fno-math-errno -fn
 if(FSI_SANITIZE)
   target_compile_options(fsi_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(fsi_flags INTERFACE -fsanitize=address,undefined)
+  target_sources(fsi_flags INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitize/keep_loaded.cpp)
 endif()
