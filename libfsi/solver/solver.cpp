@@ -40,7 +40,10 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
-      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f) {
+      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f),
+      momentum_phase_(profile_.add("momentum")),
+      flux_phase_(profile_.add("flux")),
+      pressure_phase_(profile_.add("pressure")) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
   if (physics.mu_s > 2 * physics.mu_f) momentum_.theta = 1;
@@ -76,12 +79,14 @@ void Solver::step(Real dt) {
 }
 
 void Solver::update_gradients() {
+  const Profile::Phase phase(profile_, momentum_phase_);
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (weights_.skewed || weights_.non_orthogonal) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
 }
 
 void Solver::predict_momentum(Real dt) {
+  const Profile::Phase phase(profile_, momentum_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations = momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi,
@@ -89,6 +94,7 @@ void Solver::predict_momentum(Real dt) {
 }
 
 void Solver::predict_flux(Real dt) {
+  const Profile::Phase phase(profile_, flux_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_,
                               mu_,      momentum_.theta, physics_.rho, dt};
@@ -96,6 +102,7 @@ void Solver::predict_flux(Real dt) {
 }
 
 void Solver::project(Real dt) {
+  const Profile::Phase phase(profile_, pressure_phase_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   const Solve solve =
       projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
@@ -108,6 +115,7 @@ void Solver::project(Real dt) {
 }
 
 void Solver::hold_mean_velocity(Real dt) {
+  const Profile::Phase phase(profile_, flux_phase_);
   if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
 }
 

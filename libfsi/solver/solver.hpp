@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "libfsi/core/clock.hpp"
+#include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/flow/forcing.hpp"
 #include "libfsi/flow/momentum.hpp"
@@ -68,6 +70,7 @@ class Solver {
   State& state() { return state_; }
   const State& state() const { return state_; }
   const StepReport& report() const { return report_; }
+  const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
   /// Velocity gradient at the state's time; collective.
   const CellField<Tensor>& velocity_gradient();
@@ -101,6 +104,8 @@ class Solver {
   std::optional<flow::Forcing> forcing_;
   Real cells_norm_ = 0;  // sqrt(sum V^2)
   StepReport report_;
+  Profile profile_;
+  int momentum_phase_, flux_phase_, pressure_phase_;
 };
 
 }  // namespace fsi

@@ -1,0 +1,96 @@
+#include "libfsi/solver/case.hpp"
+
+#include <cstdio>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+MeshOptions read_mesh_options(Options& options) {
+  MeshOptions mesh;
+  mesh.file = options.text("mesh", "", "gmsh file, 2.2 or 4.x; a 2-D mesh makes a 2-D run");
+  mesh.periodic =
+      options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
+  mesh.partitioner =
+      options.choice("petscpartitioner_type", "metis", {"metis", "ptscotch", "simple"},
+                     "how the mesh is divided among ranks");
+  return mesh;
+}
+
+Physics read_physics(Options& options) {
+  const std::string viscosity = "mass / (length time)", density = "mass / volume";
+  Physics physics;
+  physics.rho = options.real("fluid_density", 1,
+                             {.help = "density of the fluid", .unit = density, .positive = true});
+  physics.mu_f =
+      options.real("fluid_viscosity", 0.01,
+                   {.help = "dynamic viscosity of the fluid", .unit = viscosity, .positive = true});
+  return physics;
+}
+
+TimeSetup read_time(Options& options) {
+  TimeSetup time;
+  time.end =
+      options.real("time_end", 1, {.help = "end of the run", .unit = "time", .positive = true});
+  time.courant =
+      options.real("time_courant", 0.5,
+                   {.help = "largest Courant number", .unit = "", .max = 1, .positive = true});
+  time.step = options.real(
+      "time_step", 0, {.help = "fixed step; 0: as the limits allow", .unit = "time", .min = 0});
+  time.step_max =
+      options.real("time_step_max", 0, {.help = "largest step; 0: none", .unit = "time", .min = 0});
+  return time;
+}
+
+OutputSetup read_output(Options& options, const std::string& driver) {
+  OutputSetup output;
+  output.directory = options.text("output_dir", "out/" + driver, "where the files of the run go");
+  output.field_interval = options.real(
+      "output_interval", 0, {.help = "between field files; 0: none", .unit = "time", .min = 0});
+  output.sample_interval = options.real(
+      "sample_interval", 0,
+      {.help = "between rows of the csv files; 0: every step", .unit = "time", .min = 0});
+  output.wall_seconds_max = options.real(
+      "max_wall_time", 0,
+      {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});
+  return output;
+}
+
+}  // namespace
+
+Case read_case(Options& options, const std::string& driver) {
+  Case result;
+  result.mesh = read_mesh_options(options);
+  result.physics = read_physics(options);
+  result.time = read_time(options);
+  result.output = read_output(options, driver);
+  require(options.help() || !result.mesh.file.empty(),
+          "option -mesh is missing: the gmsh file of the geometry");
+  return result;
+}
+
+void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
+  const Quality q = quality(mesh);
+  if (rank() != 0) return;
+  std::printf(
+      "mesh %s: %lld cells in %d-D on %d ranks; non-orthogonality max %.1f mean %.1f deg, skewness "
+      "max %.3f\n",
+      which.mesh.file.c_str(), static_cast<long long>(mesh.n_global), mesh.dim, ranks(),
+      q.non_orthogonality_max, q.non_orthogonality_mean, q.skewness_max);
+  std::printf("Re = %.4g on length %g and velocity %g\n",
+              which.physics.rho * velocity * length / which.physics.mu_f, length, velocity);
+  std::fflush(stdout);
+}
+
+Limit stable_dt(const Solver& solver, const TimeSetup& time) {
+  Limit limit{solver.advective_dt(time.courant), "advective"};
+  // A start from rest gives no advective limit: a hundredth of the run is then small enough.
+  limit = tighter(limit, {time.end / 100, "start"});
+  if (time.step_max > 0) limit = tighter(limit, {time.step_max, "step_max"});
+  if (time.step > 0) limit = {time.step, "fixed"};
+  return limit;
+}
+
+}  // namespace fsi

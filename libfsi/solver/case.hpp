@@ -1,0 +1,46 @@
+#pragma once
+// The options all drivers share, resolved into plain structs.
+
+#include <string>
+
+#include "libfsi/core/options.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+
+/// How time advances.
+struct TimeSetup {
+  Real end = 1, courant = 0.5;
+  Real step = 0;      ///< fixed step; 0: as large as the limits allow
+  Real step_max = 0;  ///< 0: none
+};
+
+/// What is written, where and how often.
+struct OutputSetup {
+  std::string directory;
+  Real field_interval = 0, sample_interval = 0,
+       checkpoint_interval = 0;  ///< simulated time; 0: never
+  bool restart = false;
+  Real wall_seconds_max = 0;  ///< 0: no limit
+};
+
+/// A case as the user described it.
+struct Case {
+  MeshOptions mesh;
+  Physics physics;
+  TimeSetup time;
+  OutputSetup output;
+};
+
+/// Reads and checks the common options. Errors: Error{input}.
+Case read_case(Options& options, const std::string& driver);
+
+/// Collective. Prints what the run is about: mesh, quality, and the numbers that follow from the
+/// case's length and velocity.
+void describe(const Case& which, const Mesh& mesh, Real length, Real velocity);
+
+/// The next step may be this long: the advective limit, the fixed step, the largest step.
+Limit stable_dt(const Solver& solver, const TimeSetup& time);
+
+}  // namespace fsi
