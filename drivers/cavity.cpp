@@ -1,41 +1,42 @@
 // Flow in a closed cavity whose lid slides: fsi-cavity [case.yaml] [options]. -help lists them.
 
-#include "libfsi/core/run.hpp"
-#include "libfsi/solver/case.hpp"
-#include "libfsi/solver/output.hpp"
+#include "libfsi/fsi.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fsi;
-  return run(argc, argv, [] {
-    // 1 parameters
-    Options options("fsi-cavity", "flow in a closed cavity whose lid slides");
-    const Case which = read_case(options, "cavity");
-    const Real lid =
-        options.real("lid_velocity", 1, {.help = "of patch top, along x", .unit = "velocity"});
-    if (options.help()) return Ending::complete;
-    options.check_unknown();
+namespace fsi {
 
-    // 2 mesh and boundary conditions
-    const Mesh mesh = read_mesh(which.mesh);
-    const Conditions conditions{{"top", Wall{{lid, 0, 0}}}, {"wall", Wall{}}};
-    describe(which, mesh, 1, std::abs(lid));
+Ending body() {
+  // 1 parameters
+  Options options("fsi-cavity", "flow in a closed cavity whose lid slides");
+  const Case which = read_case(options, "cavity");
+  const Real lid =
+      options.real("lid_velocity", 1, {.help = "of patch top, along x", .unit = "velocity"});
+  if (options.help()) return Ending::complete;
+  options.check_unknown();
 
-    // 3 solver and initial state
-    Solver solver(mesh, which.physics, {.conditions = conditions});
-    solver.start([](const Vec3&) { return Vec3{}; });
+  // 2 mesh and boundary conditions
+  const Mesh mesh = read_mesh(which.mesh);
+  const Conditions conditions{{"top", Wall{{lid, 0, 0}}}, {"wall", Wall{}}};
+  describe(which, mesh, 1, std::abs(lid));
 
-    // 4 what to write
-    Output output(which, options, solver, "cavity");
+  // 3 solver and initial state
+  Solver solver(mesh, which.physics, {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
 
-    // 5 time
-    Clock clock(which.time.end);
-    while (clock.running() && output.go_on()) {
-      const Limit limit = stable_dt(solver, which.time);
-      const Real dt = clock.step(limit.dt, output.next_event());
-      solver.step(dt);
-      clock.set(solver.state().t);
-      output.after_step(limit, dt);
-    }
-    return output.finish();
-  });
+  // 4 what to write
+  Output output(which, options, solver, "cavity");
+
+  // 5 time
+  Clock clock(which.time.end);
+  while (clock.running() && output.go_on()) {
+    const Limit limit = stable_dt(solver, which.time);
+    const Real dt = clock.step(limit.dt, output.next_event());
+    solver.step(dt);
+    clock.set(solver.state().t);
+    output.after_step(limit, dt);
+  }
+  return output.finish();
 }
+
+}  // namespace fsi
+
+int main(int argc, char** argv) { return fsi::run(argc, argv, fsi::body); }

@@ -1,44 +1,44 @@
 // Flow through a periodic pipe at constant mean velocity: fsi-pipe [case.yaml] [options]. -help
-// lists them.
 
-#include "libfsi/core/run.hpp"
-#include "libfsi/solver/case.hpp"
-#include "libfsi/solver/output.hpp"
+#include "libfsi/fsi.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fsi;
-  return run(argc, argv, [] {
-    // 1 parameters
-    Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
-    const Case which = read_case(options, "pipe");
-    const Real mean = options.real("flow_mean_velocity", 0.5,
-                                   {.help = "along x, held exactly", .unit = "velocity"});
-    if (options.help()) return Ending::complete;
-    options.check_unknown();
+namespace fsi {
 
-    // 2 mesh and boundary conditions
-    const Mesh mesh = read_mesh(which.mesh);
-    Conditions conditions{{"wall", Wall{}}};
-    for (const Patch& patch : mesh.patches)
-      if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
-    describe(which, mesh, 1, 2 * mean);
+Ending body() {
+  // 1 parameters
+  Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
+  const Case which = read_case(options, "pipe");
+  const Real mean = options.real("flow_mean_velocity", 0.5,
+                                 {.help = "along x, held exactly", .unit = "velocity"});
+  if (options.help()) return Ending::complete;
+  options.check_unknown();
 
-    // 3 solver and initial state
-    Solver solver(mesh, which.physics, {.conditions = conditions, .mean_velocity = mean});
-    solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
+  // 2 mesh and boundary conditions
+  const Mesh mesh = read_mesh(which.mesh);
+  Conditions conditions{{"wall", Wall{}}};
+  for (const Patch& patch : mesh.patches)
+    if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
+  describe(which, mesh, 1, 2 * mean);
 
-    // 4 what to write
-    Output output(which, options, solver, "pipe");
+  // 3 solver and initial state
+  Solver solver(mesh, which.physics, {.conditions = conditions, .mean_velocity = mean});
+  solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
 
-    // 5 time
-    Clock clock(which.time.end);
-    while (clock.running() && output.go_on()) {
-      const Limit limit = stable_dt(solver, which.time);
-      const Real dt = clock.step(limit.dt, output.next_event());
-      solver.step(dt);
-      clock.set(solver.state().t);
-      output.after_step(limit, dt);
-    }
-    return output.finish();
-  });
+  // 4 what to write
+  Output output(which, options, solver, "pipe");
+
+  // 5 time
+  Clock clock(which.time.end);
+  while (clock.running() && output.go_on()) {
+    const Limit limit = stable_dt(solver, which.time);
+    const Real dt = clock.step(limit.dt, output.next_event());
+    solver.step(dt);
+    clock.set(solver.state().t);
+    output.after_step(limit, dt);
+  }
+  return output.finish();
 }
+
+}  // namespace fsi
+
+int main(int argc, char** argv) { return fsi::run(argc, argv, fsi::body); }

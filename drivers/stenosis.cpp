@@ -1,44 +1,44 @@
 // Flow through a constricted pipe between two pressures: fsi-stenosis [case.yaml] [options]. -help
-// lists them.
 
-#include "libfsi/core/run.hpp"
-#include "libfsi/solver/case.hpp"
-#include "libfsi/solver/output.hpp"
+#include "libfsi/fsi.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fsi;
-  return run(argc, argv, [] {
-    // 1 parameters
-    Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
-    const Case which = read_case(options, "stenosis");
-    const Real p_in = options.real(
-        "inlet_pressure", 5.5, {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
-    if (options.help()) return Ending::complete;
-    options.check_unknown();
+namespace fsi {
 
-    // 2 mesh and boundary conditions
-    const Mesh mesh = read_mesh(which.mesh);
-    Conditions conditions{{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
-    for (const Patch& patch : mesh.patches)
-      if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
-    describe(which, mesh, 1, 1);
+Ending body() {
+  // 1 parameters
+  Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
+  const Case which = read_case(options, "stenosis");
+  const Real p_in = options.real("inlet_pressure", 5.5,
+                                 {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
+  if (options.help()) return Ending::complete;
+  options.check_unknown();
 
-    // 3 solver and initial state
-    Solver solver(mesh, which.physics, {.conditions = conditions});
-    solver.start([](const Vec3&) { return Vec3{}; });
+  // 2 mesh and boundary conditions
+  const Mesh mesh = read_mesh(which.mesh);
+  Conditions conditions{{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
+  for (const Patch& patch : mesh.patches)
+    if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
+  describe(which, mesh, 1, 1);
 
-    // 4 what to write
-    Output output(which, options, solver, "stenosis", "outlet");
+  // 3 solver and initial state
+  Solver solver(mesh, which.physics, {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
 
-    // 5 time
-    Clock clock(which.time.end);
-    while (clock.running() && output.go_on()) {
-      const Limit limit = stable_dt(solver, which.time);
-      const Real dt = clock.step(limit.dt, output.next_event());
-      solver.step(dt);
-      clock.set(solver.state().t);
-      output.after_step(limit, dt);
-    }
-    return output.finish();
-  });
+  // 4 what to write
+  Output output(which, options, solver, "stenosis", "outlet");
+
+  // 5 time
+  Clock clock(which.time.end);
+  while (clock.running() && output.go_on()) {
+    const Limit limit = stable_dt(solver, which.time);
+    const Real dt = clock.step(limit.dt, output.next_event());
+    solver.step(dt);
+    clock.set(solver.state().t);
+    output.after_step(limit, dt);
+  }
+  return output.finish();
 }
+
+}  // namespace fsi
+
+int main(int argc, char** argv) { return fsi::run(argc, argv, fsi::body); }

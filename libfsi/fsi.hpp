@@ -1,11 +1,18 @@
 #pragma once
 // The one header a driver includes.
 
-#include "libfsi/core/error.hpp"     // IWYU pragma: export
-#include "libfsi/core/options.hpp"   // IWYU pragma: export
-#include "libfsi/core/parallel.hpp"  // IWYU pragma: export
-#include "libfsi/core/run.hpp"       // IWYU pragma: export
-#include "libfsi/core/types.hpp"     // IWYU pragma: export
-#include "libfsi/field/field.hpp"    // IWYU pragma: export
-#include "libfsi/mesh/mesh.hpp"      // IWYU pragma: export
-#include "libfsi/mesh/read.hpp"      // IWYU pragma: export
+#include "libfsi/core/clock.hpp"
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/options.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/core/run.hpp"
+#include "libfsi/core/signals.hpp"
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/io/manifest.hpp"
+#include "libfsi/io/table.hpp"
+#include "libfsi/mesh/mesh.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/case.hpp"
+#include "libfsi/solver/output.hpp"
+#include "libfsi/solver/solver.hpp"
