@@ -17,6 +17,3 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${folder}/minimal -B ${folder}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${folder}/build)
-run(gmsh -2 -setnumber n 32 ${SOURCE}/meshes/box.geo -setnumber lz 0 -o ${folder}/box.msh)
-run(${folder}/build/taylor-green -mesh ${folder}/box.msh)
-run(${MPIEXEC} 2 ${folder}/build/taylor-green -mesh ${folder}/box.msh)

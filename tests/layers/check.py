@@ -144,7 +144,7 @@ def check_classes(code):
     for pattern, what in ((r"\bnew\b", "new"), (r"(?<!= )\bdelete\b", "delete"),
                           (r"\bvirtual\b", "virtual"), (r"\bget_\w+\s*\(", "a name with get_"),
                           (r"(?<![A-Z]_)\bneighbor", "neighbor for neighbour"),
-                          (r"\busing\s+namespace\b", "using namespace")):
+                          (r"(?m)^\s*using\s+namespace\b(?!.*\bfsi;)", "using namespace")):
         for match in re.finditer(pattern, code):
             yield line_of(code, match.start()), f"{what} is not used here"
 
