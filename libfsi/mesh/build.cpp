@@ -176,6 +176,8 @@ Mesh build_mesh(CellList list) {
   mesh.halo = Halo(list.n_owned, list.halo_owner, list.halo_owner_cell);
   mesh.global_id = std::move(list.global_id);
   mesh.points = std::move(list.points);
+  mesh.cell_points = std::move(list.corners);
+  mesh.vertex = std::move(list.vertex);
   mesh.total_volume = exact_sum({mesh.V.data(), static_cast<std::size_t>(mesh.n_owned)});
   return mesh;
 }

@@ -62,7 +62,9 @@ struct Mesh {
   std::vector<std::int8_t> cell_neighbour_shift;  ///< beside cell_neighbours.index: that cell is seen at C[n] + translation[shift]
 
   // points
-  std::vector<Vec3> points;
+  std::vector<Vec3> points;               ///< corners of owned and halo cells
+  Csr cell_points;                        ///< [n_cells] corners, in the order of the gmsh format
+  std::vector<Index> vertex;              ///< [points] the same number for points joined by a period
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
 
   Halo halo;
