@@ -1,4 +1,4 @@
-#include "libfsi/mesh/plex_metis.hpp"
+#include "libfsi/mesh/plex_partition.hpp"
 
 #include <metis.h>
 #include <petsc/private/partitionerimpl.h>
@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
 
 namespace fsi {
 namespace {
@@ -50,12 +53,52 @@ PetscErrorCode partition(PetscPartitioner part, PetscInt n_parts, PetscInt n, Pe
   PetscFunctionReturn(0);
 }
 
-}  // namespace
-
-PetscErrorCode create_metis_partitioner(PetscPartitioner part) noexcept {
+/// The constructor PETSc calls for "metis".
+PetscErrorCode create_metis(PetscPartitioner part) noexcept {
   part->noGraph = PETSC_FALSE;
   part->ops->partition = partition;
   return 0;
+}
+
+/// Cells that share a face, in the form of a CSR matrix.
+void graph_of(const CellList& whole, std::vector<PetscInt>& start, std::vector<PetscInt>& adjacency) {
+  const std::vector<Index> mate = match_faces(whole);
+  start.assign(1, 0);
+  for (Index c = 0; c < whole.n_cells(); ++c) {
+    for (int f = 0; f < max_faces; ++f) {
+      if (mate[half_of(c, f)] >= 0) adjacency.push_back(Half(mate[half_of(c, f)]).cell);
+    }
+    start.push_back(static_cast<PetscInt>(adjacency.size()));
+  }
+}
+
+}  // namespace
+
+Parts partition_cells(const CellList& whole, const std::string& partitioner) {
+  std::vector<PetscInt> start{0}, adjacency;
+  if (rank() == 0) graph_of(whole, start, adjacency);
+  PetscPartitioner part = nullptr;
+  PetscSection sizes = nullptr;
+  IS cells = nullptr;
+  FSI_PETSC(PetscPartitionerRegister("metis", create_metis));
+  FSI_PETSC(PetscPartitionerCreate(comm(), &part));
+  FSI_PETSC(PetscPartitionerSetType(part, partitioner.c_str()));
+  FSI_PETSC(PetscSectionCreate(comm(), &sizes));
+  FSI_PETSC(PetscPartitionerPartition(part, ranks(), static_cast<PetscInt>(start.size()) - 1,
+                                      start.data(), adjacency.data(), nullptr, nullptr, sizes, &cells));
+  Parts parts;
+  if (rank() == 0) {
+    parts.sizes.resize(static_cast<std::size_t>(ranks()));
+    for (int r = 0; r < ranks(); ++r) FSI_PETSC(PetscSectionGetDof(sizes, r, &parts.sizes[r]));
+    const PetscInt* list = nullptr;
+    FSI_PETSC(ISGetIndices(cells, &list));
+    parts.cells.assign(list, list + whole.n_cells());
+    FSI_PETSC(ISRestoreIndices(cells, &list));
+  }
+  FSI_PETSC(ISDestroy(&cells));
+  FSI_PETSC(PetscSectionDestroy(&sizes));
+  FSI_PETSC(PetscPartitionerDestroy(&part));
+  return parts;
 }
 
 }  // namespace fsi

@@ -1,0 +1,23 @@
+#pragma once
+// Which rank takes which cell.
+
+#include <petscsys.h>
+
+#include <string>
+#include <vector>
+
+#include "libfsi/mesh/cell_list.hpp"
+
+namespace fsi {
+
+/// The cells of each part, part after part; empty on every rank but the first.
+struct Parts {
+  std::vector<PetscInt> sizes;  ///< [ranks]
+  std::vector<PetscInt> cells;
+};
+
+/// Collective. Divides the graph of cells that share a face (across a period too), which lies on
+/// rank 0, with a partitioner of PETSc: metis (ours), ptscotch or simple.
+Parts partition_cells(const CellList& whole, const std::string& partitioner);
+
+}  // namespace fsi
