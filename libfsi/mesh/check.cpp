@@ -1,52 +1,213 @@
 #include "libfsi/mesh/check.hpp"
 
 #include <algorithm>
-#include <map>
+#include <bit>
 #include <numeric>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/mesh/check_cells.hpp"
+#include "libfsi/mesh/metrics.hpp"
+#include "libfsi/mesh/seams.hpp"
+#include "libfsi/mesh/sentences.hpp"
 
 namespace fsi {
 namespace {
 
-void name_faces(const RawMesh& raw, CellList& list) {
-  std::map<std::array<Index, max_face_corners>, Index> name_of;
-  for (const RawMesh::Side& side : raw.sides) {
-    std::array<Index, max_face_corners> key = side.corner;
-    for (Index& p : key) p = p < 0 ? p : list.vertex[p];
-    std::ranges::sort(key);
-    name_of[key] = side.name;
+using Key = std::array<Index, max_face_corners>;
+
+/// The points of a face in ascending order, joined ones apart: what a boundary element names.
+Key point_key(const CellList& list, Half half) {
+  Key key{-1, -1, -1, -1};
+  const auto corners = list.corners[half.cell];
+  std::size_t n = 0;
+  for (const std::int8_t i : shape_of(list.types[half.cell]).face_corners(half.face)) {
+    key[n++] = corners[i];
   }
-  const auto mate = match_faces(list);
-  list.face_patch.assign(list.types.size(), {-1, -1, -1, -1, -1, -1});
+  std::ranges::sort(key);
+  return key;
+}
+
+Vec3 centre_of(const CellList& list, Half half) {
+  Vec3 sum;
+  const auto corners = shape_of(list.types[half.cell]).face_corners(half.face);
+  for (const std::int8_t i : corners) sum += list.points[list.corners[half.cell][i]];
+  return sum / static_cast<Real>(corners.size());
+}
+
+template <class Visit>
+void each_half(const CellList& list, const Visit& visit) {
   for (Index c = 0; c < list.n_cells(); ++c) {
-    for (int f = 0; f < shape_of(list.types[c]).faces; ++f) {
-      const Half half(half_of(c, f));
-      if (mate[half_of(c, f)] != no_mate) continue;
-      const auto found = name_of.find(face_key(list, half));
-      require(found != name_of.end() && found->second >= 0,
-              raw.file + ": a boundary face carries no physical name");
-      list.face_patch[c][f] = static_cast<std::int8_t>(found->second);
+    for (int f = 0; f < shape_of(list.types[c]).faces; ++f) visit(half_of(c, f));
+  }
+}
+
+void check_manifold(const CellList& list, const RawMesh& raw, const std::vector<Index>& mate) {
+  each_half(list, [&](Index half) {
+    if (mate[half] != many_mates) return;
+    refuse(raw.file + ": the face at " + text_of(centre_of(list, Half(half))) + " of element " +
+           std::to_string(raw.tags[Half(half).cell]) + " belongs to more than two cells");
+  });
+}
+
+void check_connected(const CellList& list, const std::string& file, const std::vector<Index>& mate) {
+  std::vector<Index> part(list.types.size(), -1), queue, sizes, firsts;
+  for (Index seed = 0; seed < list.n_cells(); ++seed) {
+    if (part[seed] >= 0) continue;
+    const auto number = static_cast<Index>(sizes.size());
+    queue.assign(1, seed);
+    part[seed] = number;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      for (int f = 0; f < max_faces; ++f) {
+        const Index other = mate[half_of(queue[i], f)];
+        if (other < 0 || part[Half(other).cell] >= 0) continue;
+        part[Half(other).cell] = number;
+        queue.push_back(Half(other).cell);
+      }
+    }
+    sizes.push_back(static_cast<Index>(queue.size())), firsts.push_back(seed);
+  }
+  if (sizes.size() < 2) return;
+  const auto smallest = std::ranges::min_element(sizes) - sizes.begin();
+  refuse(file + " falls into " + std::to_string(sizes.size()) +
+         " parts that share no face; the smallest has " + std::to_string(sizes[smallest]) +
+         " cells, one with a corner at " + text_of(list.points[list.corners[firsts[smallest]][0]]));
+}
+
+/// The boundary elements with a name, findable by their points.
+class NamedSides {
+ public:
+  NamedSides(const RawMesh& raw, std::size_t n_points) : raw_(raw), touched_(n_points, 0) {
+    for (const RawMesh::Side& side : raw.sides) {
+      if (side.name < 0) continue;
+      Key key = side.corner;
+      for (const Index p : key) {
+        if (p >= 0) touched_[p] = 1;
+      }
+      std::ranges::sort(key);
+      sides_.push_back({key, &side, false});
+    }
+    std::ranges::stable_sort(sides_, {}, &Entry::key);
+    for (std::size_t i = 1; i < sides_.size(); ++i) {
+      const Entry &a = sides_[i - 1], &b = sides_[i];
+      if (a.key != b.key || a.side->name == b.side->name) continue;
+      refuse(raw.file + ": boundary element " + std::to_string(b.side->tag) + " carries two names: " +
+             raw.names[a.side->name] + ", " + raw.names[b.side->name]);
     }
   }
-  list.patches = raw.names;
+  /// The number of the face's name, or -1.
+  Index name_of(const Key& key) {
+    for (const Index p : key) {
+      if (p >= 0 && touched_[p] == 0) return -1;
+    }
+    auto found = std::ranges::lower_bound(sides_, key, {}, &Entry::key);
+    if (found == sides_.end() || found->key != key) return -1;
+    const Index name = found->side->name;
+    for (; found != sides_.end() && found->key == key; ++found) found->used = true;
+    return name;
+  }
+  void check_used() const {
+    for (const Entry& entry : sides_) {
+      if (entry.used) continue;
+      refuse(raw_.file + ": boundary element " + std::to_string(entry.side->tag) + " of \"" +
+             raw_.names[entry.side->name] + "\" at " +
+             text_of(raw_.points[entry.side->corner[0]]) + " is not a face of any cell");
+    }
+  }
+
+ private:
+  struct Entry {
+    Key key;
+    const RawMesh::Side* side;
+    bool used;
+  };
+  const RawMesh& raw_;
+  std::vector<Entry> sides_;
+  std::vector<char> touched_;
+};
+
+/// Fills face_patch with the numbers of the names in the file, and patches.
+void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
+                const std::vector<Index>& mate, CellList& list) {
+  NamedSides sides(raw, list.points.size());
+  list.face_patch.assign(list.types.size(), {-1, -1, -1, -1, -1, -1});
+  require(raw.names.size() < 128, raw.file + " has more than 127 physical names on its boundary");
+  std::vector<Index> faces(raw.names.size(), 0);
+  GlobalIndex uncovered = 0;
+  std::string places;
+  each_half(list, [&](Index half) {
+    const Half h(half);
+    const Index name = sides.name_of(point_key(list, h));
+    if (mate[half] >= 0) return;
+    if (name < 0) {
+      if (++uncovered <= 5) places += (places.empty() ? "" : ", ") + text_of(centre_of(list, h));
+      return;
+    }
+    if (std::ranges::find(periodic, raw.names[name]) != periodic.end()) {
+      refuse(raw.file + ": the face at " + text_of(centre_of(list, h)) + " of periodic patch \"" +
+             raw.names[name] + "\" has no counterpart");
+    }
+    list.face_patch[h.cell][h.face] = static_cast<std::int8_t>(name);
+    ++faces[name];
+  });
+  require(uncovered == 0, raw.file + ": " + std::to_string(uncovered) +
+                              " boundary faces carry no physical name, the first at " + places +
+                              "; names are: " + (raw.names.empty() ? "none" : text_of(raw.names)));
+  sides.check_used();
+  // Names without boundary faces (periodic ones, surfaces inside) are no patches.
+  std::vector<std::int8_t> patch(raw.names.size(), -1);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] == 0) continue;
+    patch[i] = static_cast<std::int8_t>(list.patches.size());
+    list.patches.push_back(raw.names[i]);
+  }
+  for (auto& cell : list.face_patch) {
+    for (std::int8_t& p : cell) p = p < 0 ? p : patch[p];
+  }
+}
+
+/// A number that differs where the cells, their places or the names of the boundary differ.
+std::uint64_t hash_of(const CellList& list) {
+  std::uint64_t h = 0xCBF29CE484222325u;  // [FNV] offset, then by words with its prime
+  const auto mix = [&](std::uint64_t word) {
+    h = (h ^ word) * 0x100000001B3u;
+    h ^= h >> 29;
+  };
+  for (const Vec3& x : list.points) {
+    for (int k = 0; k < 3; ++k) mix(std::bit_cast<std::uint64_t>(x[k] + 0.0));  // -0 is 0
+  }
+  for (const Index p : list.corners.index) mix(static_cast<std::uint64_t>(p));
+  for (const Index v : list.vertex) mix(static_cast<std::uint64_t>(v));
+  for (const CellType type : list.types) mix(static_cast<std::uint64_t>(type));
+  for (const auto& cell : list.face_patch) {
+    for (const std::int8_t p : cell) mix(static_cast<std::uint64_t>(p + 1));
+  }
+  for (const std::string& name : list.patches) {
+    for (const char c : name) mix(static_cast<unsigned char>(c));
+  }
+  return h;
 }
 
 }  // namespace
 
-CellList check_mesh(RawMesh raw, const std::vector<std::string>&) {
+CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
+  check_cells(raw);
+  Seams seams = join_seams(raw, periodic);
   CellList list;
   list.dim = raw.dim;
-  list.points = std::move(raw.points);
+  list.points = raw.points;
   list.types = std::move(raw.types), list.corners = std::move(raw.corners);
-  list.vertex.resize(list.points.size());
-  std::iota(list.vertex.begin(), list.vertex.end(), 0);
-  list.offset.assign(list.points.size(), Offset{});
+  list.vertex = std::move(seams.vertex), list.offset = std::move(seams.offset);
+  list.periods = std::move(seams.periods);
   list.n_owned = list.n_cells(), list.n_global = list.n_cells();
   list.global_id.resize(list.types.size());
   std::iota(list.global_id.begin(), list.global_id.end(), 0);
-  name_faces(raw, list);
+  check_periods(list, raw.file);
+  const std::vector<Index> mate = match_faces(list);
+  check_manifold(list, raw, mate);
+  check_connected(list, raw.file, mate);
+  name_faces(raw, periodic, mate, list);
+  list.hash = hash_of(list);
   return list;
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+// Parts of the sentences in which the mesh complains.
+
+#include <string>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// Throws Error{input}. Loops test first and make the sentence only where the test fails.
+[[noreturn]] void refuse(const std::string& sentence);
+
+/// "(x, y, z)" with six digits.
+std::string text_of(const Vec3& x);
+
+/// "a, b, c".
+std::string text_of(const std::vector<std::string>& names);
+
+/// The name that differs from `name` by the fewest edits; "" where none is near.
+std::string nearest(const std::string& name, const std::vector<std::string>& names);
+
+}  // namespace fsi
