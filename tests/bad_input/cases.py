@@ -1,0 +1,106 @@
+"""The table of bad input: name, driver, arguments or damaged mesh, fragments of the sentence."""
+import os
+
+import faults as f
+
+# Small meshes: geometry, dimension, parameters.
+MESHES = {
+    "cavity": ("cavity", 2, {"n": 6}),
+    "box": ("box", 2, {"n": 6, "lz": 0}),
+    "thin": ("box", 2, {"n": 6, "nx": 2, "lz": 0}),
+    "pipe": ("pipe", 3, {"n": 4, "length": 1}),
+}
+
+
+class Case:
+    """A run that must fail. `mesh` names a good mesh, `damage` what is done to it."""
+
+    def __init__(self, name, driver, arguments, *fragments, mesh="cavity", damage=None, yaml=None):
+        self.name, self.driver, self.fragments = name, driver, fragments
+        self.words, self.mesh, self.damage, self.yaml = arguments, mesh, damage, yaml
+
+    def arguments(self, made, folder):
+        words = list(self.words)
+        if self.mesh:
+            path = made[self.mesh]
+            if self.damage:
+                with open(path, encoding="utf-8") as file:
+                    text = self.damage(file.read())
+                path = os.path.join(folder, self.name.replace(" ", "-") + ".msh")
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+            words = ["-mesh", path] + words
+        if self.yaml is not None:
+            path = os.path.join(folder, self.name.replace(" ", "-") + ".yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(self.yaml)
+            words = [path] + words
+        return words
+
+
+def option(name, arguments, *fragments, driver="fsi-cavity", **more):
+    return Case(name, driver, arguments.split(), *fragments, **more)
+
+
+def mesh(name, damage, *fragments, driver="fsi-cavity", arguments="", of="cavity"):
+    return Case(name, driver, arguments.split(), *fragments, mesh=of, damage=damage)
+
+
+OPTIONS = [
+    option("misspelt option", "-fluid_viscosty 0.1", "-fluid_viscosty", "-fluid_viscosity"),
+    option("viscosity NaN", "-fluid_viscosity nan", "-fluid_viscosity", "nan", "value > 0"),
+    option("viscosity infinite", "-fluid_viscosity inf", "-fluid_viscosity", "inf"),
+    option("viscosity negative", "-fluid_viscosity -1", "-fluid_viscosity", "-1", "value > 0"),
+    option("viscosity a word", "-fluid_viscosity thick", "-fluid_viscosity", "thick"),
+    option("density zero", "-fluid_density 0", "-fluid_density", "value > 0"),
+    option("value missing", "-time_end", "-time_end"),
+    option("end of time zero", "-time_end 0", "-time_end", "value > 0"),
+    option("Courant number too large", "-time_courant 7", "-time_courant", "<= 1"),
+    option("time step negative", "-time_step -0.1", "-time_step", ">= 0"),
+    option("interval negative", "-sample_interval -1", "-sample_interval", ">= 0"),
+    option("partitioner unknown", "-petscpartitioner_type scotsch", "-petscpartitioner_type",
+           "scotsch", "metis, ptscotch, simple"),
+    option("option of another driver", "-inlet_pressure 5", "-inlet_pressure"),
+    option("no mesh", "", "-mesh", mesh=None),
+    option("mesh not there", "-mesh nowhere.msh", "nowhere.msh", "cannot be opened", mesh=None),
+    option("yaml not there", "nowhere.yaml", "nowhere.yaml", "cannot be opened", mesh=None),
+    option("yaml broken", "", "not valid YAML", yaml="fluid: {density: [1, 2\n time: }"),
+    option("yaml unknown key", "", "-fluid_colour", yaml="fluid: {colour: 3}\n"),
+    option("yaml value", "", "-fluid_density", "-3", yaml="fluid:\n  density: -3\n"),
+]
+
+MESH = [
+    option("three periodic names", "-mesh_periodic left,right,top", "-mesh_periodic", mesh="box"),
+    option("periodic name unknown", "-mesh_periodic left,rigth", "rigth", "left", "right",
+           mesh="box"),
+    mesh("empty file", f.empty, "empty"),
+    mesh("garbage", f.garbage, "garbage.msh"),
+    mesh("truncated", f.truncated, "truncated.msh"),
+    mesh("version 1", f.version("1.0"), "2.2, 4.0 or 4.1"),
+    mesh("version 3", f.version("3.0"), "2.2, 4.0 or 4.1"),
+    mesh("version 5", f.version("5"), "2.2, 4.0 or 4.1"),
+    mesh("node NaN", f.node(20, 0, "nan"), "node"),
+    mesh("node infinite", f.node(20, 0, "inf"), "node"),
+    mesh("node a word", f.node(20, 0, "left"), "left"),
+    mesh("unknown node", f.elements(f.unknown_node), "999999"),
+    mesh("cell tangled", f.elements(f.tangled), "cell"),
+    mesh("node repeated", f.elements(f.repeated_node), "node"),
+    mesh("cell duplicate", f.elements(f.duplicate), "cell"),
+    mesh("face of three cells", f.elements(f.non_manifold), "cells"),
+    mesh("cell inverted", f.elements(f.inverted, dim=3), "inverted", of="pipe", driver="fsi-pipe",
+         arguments="-mesh_periodic inlet,outlet"),
+    mesh("no cells", f.elements(lambda chosen: [], dim=3), "", of="pipe", driver="fsi-pipe",
+         arguments="-mesh_periodic inlet,outlet"),
+    mesh("boundary face without a name", f.elements(f.dropped, cells=False), "boundary face"),
+    mesh("no names", f.without("PhysicalNames"), "name"),
+    mesh("patch misspelt", f.renamed("top", "topp"), "topp"),
+    mesh("patch missing", f.renamed("top", "wall"), "top"),
+    mesh("two cells across a period", None, "left", of="thin",
+         arguments="-mesh_periodic left,right"),
+    mesh("pair that does not match", f.node(3, 1, "0.9"), "left", of="box",
+         arguments="-mesh_periodic left,right"),
+    mesh("pair at an angle", None, "left", of="box", arguments="-mesh_periodic left,top"),
+    mesh("mesh of another case", None, "inlet", driver="fsi-stenosis"),
+]
+
+CASES = {"options": OPTIONS, "mesh": MESH}

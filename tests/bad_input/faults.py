@@ -1,0 +1,122 @@
+"""Ways to damage a gmsh 2.2 ascii file: each takes the text and gives the damaged text."""
+
+
+def sections(text):
+    """The file as {name: lines between $name and $Endname}, in order."""
+    found, name = {}, None
+    for line in text.splitlines():
+        if line.startswith("$End"):
+            name = None
+        elif line.startswith("$"):
+            name = line[1:]
+            found[name] = []
+        else:
+            found[name].append(line)
+    return found
+
+
+def joined(parts):
+    return "".join(f"${name}\n" + "".join(line + "\n" for line in lines) + f"$End{name}\n"
+                   for name, lines in parts.items())
+
+
+def empty(_):
+    return ""
+
+
+def garbage(_):
+    return "once upon a time there was a mesh\n" * 20
+
+
+def truncated(text):
+    return text[:int(0.6 * len(text))]
+
+
+def version(number):
+    def damage(text):
+        return text.replace("2.2 0 8", f"{number} 0 8", 1)
+    return damage
+
+
+def node(row, axis, value):
+    """One coordinate of a node set to a value."""
+    def damage(text):
+        parts = sections(text)
+        words = parts["Nodes"][1 + row].split()
+        words[1 + axis] = value
+        parts["Nodes"][1 + row] = " ".join(words)
+        return joined(parts)
+    return damage
+
+
+def elements(change, cells=True, dim=2):
+    """The element lines of the cells (of the boundary) given to `change`, which edits the list."""
+    kinds = {2: ("2", "3"), 3: ("4", "5", "6", "7")}[dim if cells else dim - 1] \
+        if dim - (not cells) > 1 else ("1",)
+
+    def damage(text):
+        parts = sections(text)
+        lines = [line.split() for line in parts["Elements"][1:]]
+        chosen = [words for words in lines if words[1] in kinds]
+        rest = [words for words in lines if words[1] not in kinds]
+        chosen = change(chosen)
+        parts["Elements"] = [str(len(rest) + len(chosen))] + [" ".join(w) for w in rest + chosen]
+        return joined(parts)
+    return damage
+
+
+def corners(words):
+    """Where the corners of an element line begin."""
+    return 3 + int(words[2])
+
+
+def unknown_node(chosen):
+    chosen[0][-1] = "999999"
+    return chosen
+
+
+def inverted(chosen):
+    first = corners(chosen[0])
+    chosen[0][first:] = chosen[0][first:][::-1]
+    return chosen
+
+
+def tangled(chosen):
+    """Two corners of a quad swapped: its edges cross."""
+    chosen[0][-1], chosen[0][-2] = chosen[0][-2], chosen[0][-1]
+    return chosen
+
+
+def repeated_node(chosen):
+    chosen[0][-1] = chosen[0][-2]
+    return chosen
+
+
+def duplicate(chosen):
+    return chosen + [["999999"] + chosen[0][1:]]
+
+
+def non_manifold(chosen):
+    """A third cell on the first edge: a triangle over to a far corner."""
+    first = corners(chosen[0])
+    far = next(w for w in chosen[-1][corners(chosen[-1]):] if w not in chosen[0][first:])
+    return chosen + [["999999", "2"] + chosen[0][2:first] + chosen[0][first:first + 2] + [far]]
+
+
+def dropped(chosen):
+    return chosen[1:]
+
+
+def without(name):
+    """A section left out."""
+    def damage(text):
+        parts = sections(text)
+        del parts[name]
+        return joined(parts)
+    return damage
+
+
+def renamed(old, new):
+    def damage(text):
+        return text.replace(f'"{old}"', f'"{new}"')
+    return damage

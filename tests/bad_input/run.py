@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""Bad input must end a run before its first step: exit code 2 and one sentence that names the culprit.
+
+    run.py options|mesh DRIVERS FOLDER MESHES RANKS [MPIEXEC...]
+
+Every case is a driver, its arguments and what the sentence must hold; MPIEXEC... runs it on RANKS.
+"""
+import os
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import cases  # noqa: E402
+
+
+def gmsh(geometry, target, dimension, **numbers):
+    settings = [word for name, value in numbers.items()
+                for word in ("-setnumber", name, str(value))]
+    subprocess.run(["gmsh", f"-{dimension}", geometry, *settings, "-format", "msh2", "-o", target],
+                   check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+
+def good_meshes(meshes, folder):
+    """The small meshes that the cases use whole or damaged, as ascii gmsh 2.2."""
+    made = {}
+    for name, (geometry, dimension, numbers) in cases.MESHES.items():
+        made[name] = os.path.join(folder, name + ".msh")
+        gmsh(os.path.join(meshes, geometry + ".geo"), made[name], dimension, **numbers)
+    return made
+
+
+def judge(case, command, folder):
+    """What is wrong with the outcome of a case; nothing where it is as it must be."""
+    result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                            cwd=folder, errors="replace")
+    said = [line for line in result.stderr.splitlines() if line.startswith("fsi: error: ")]
+    if result.returncode != 2:
+        yield f"exit code {result.returncode}, not 2"
+    if len(said) != 1:
+        yield f"{len(said)} sentences, not one"
+    sentence = " ".join(said)
+    for fragment in case.fragments:
+        if fragment not in sentence:
+            yield f'"{fragment}" is not in the sentence'
+    if "step " in result.stdout:
+        yield "a step was taken"
+    if "PETSC ERROR" in result.stderr:
+        yield "PETSc's own report was printed"
+    judge.sentence = sentence or result.stderr[-500:]
+
+
+def main():
+    kind, drivers, folder, meshes, ranks = sys.argv[1:6]
+    folder = os.path.join(folder, f"{kind}-{ranks}")
+    os.makedirs(folder, exist_ok=True)
+    launcher = sys.argv[6:] + [ranks] if ranks != "1" else []
+    made = good_meshes(meshes, folder)
+    failures = 0
+    for case in cases.CASES[kind]:
+        arguments = case.arguments(made, folder)
+        command = launcher + [os.path.join(drivers, case.driver)] + arguments
+        wrong = list(judge(case, command, folder))
+        failures += bool(wrong)
+        print(f"{'FAIL' if wrong else 'ok  '} {case.name}: {judge.sentence}")
+        for what in wrong:
+            print(f"     {what}")
+    print(f"{len(cases.CASES[kind])} cases on {ranks} ranks, {failures} not as they must be")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
