@@ -16,6 +16,12 @@ std::string names(const Mesh& mesh) {
   return list;
 }
 
+std::string names(const Conditions& conditions) {
+  std::string list;
+  for (const auto& item : conditions) list += (list.empty() ? "" : ", ") + item.first;
+  return list;
+}
+
 }  // namespace
 
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
@@ -23,9 +29,8 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
   for (const Patch& patch : mesh.patches) {
     const auto found = conditions.find(patch.name);
     require(found != conditions.end(),
-            "patch \"" + patch.name +
-                "\" of the mesh has no boundary "
-                "condition in this driver; join it by -mesh_periodic or rename it");
+            "patch \"" + patch.name + "\" of the mesh has no boundary condition in this driver, " +
+                "which knows: " + names(conditions) + "; rename it or join it by -mesh_periodic");
     result.push_back(found->second);
   }
   for (const auto& [name, condition] : conditions) {

@@ -70,7 +70,7 @@ OPTIONS = [
 ]
 
 MESH = [
-    option("three periodic names", "-mesh_periodic left,right,top", "-mesh_periodic", mesh="box"),
+    option("three periodic names", "-mesh_periodic left,right,top", "pairs", mesh="box"),
     option("periodic name unknown", "-mesh_periodic left,rigth", "rigth", "left", "right",
            mesh="box"),
     mesh("empty file", f.empty, "empty"),
@@ -87,20 +87,20 @@ MESH = [
     mesh("node repeated", f.elements(f.repeated_node), "node"),
     mesh("cell duplicate", f.elements(f.duplicate), "cell"),
     mesh("face of three cells", f.elements(f.non_manifold), "cells"),
-    mesh("cell inverted", f.elements(f.inverted, dim=3), "inverted", of="pipe", driver="fsi-pipe",
+    mesh("cell inverted", f.elements(f.inverted, dim=3), "turned inside out", of="pipe", driver="fsi-pipe",
          arguments="-mesh_periodic inlet,outlet"),
-    mesh("no cells", f.elements(lambda chosen: [], dim=3), "", of="pipe", driver="fsi-pipe",
+    mesh("no cells", f.elements(lambda chosen: [], dim=3), "holds no volume elements", of="pipe", driver="fsi-pipe",
          arguments="-mesh_periodic inlet,outlet"),
     mesh("boundary face without a name", f.elements(f.dropped, cells=False), "boundary face"),
     mesh("no names", f.without("PhysicalNames"), "name"),
-    mesh("patch misspelt", f.renamed("top", "topp"), "topp"),
+    mesh("patch misspelt", f.renamed("top", "topp"), "topp", "top, wall"),
     mesh("patch missing", f.renamed("top", "wall"), "top"),
-    mesh("two cells across a period", None, "left", of="thin",
+    mesh("two cells across a period", None, "fewer than 3 cells", of="thin",
          arguments="-mesh_periodic left,right"),
     mesh("pair that does not match", f.node(3, 1, "0.9"), "left", of="box",
          arguments="-mesh_periodic left,right"),
     mesh("pair at an angle", None, "left", of="box", arguments="-mesh_periodic left,top"),
-    mesh("mesh of another case", None, "inlet", driver="fsi-stenosis"),
+    mesh("mesh of another case", None, "top", driver="fsi-stenosis"),
 ]
 
 CASES = {"options": OPTIONS, "mesh": MESH}

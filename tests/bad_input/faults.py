@@ -76,8 +76,10 @@ def unknown_node(chosen):
 
 
 def inverted(chosen):
+    """Bottom and top of a hex or prism change places."""
     first = corners(chosen[0])
-    chosen[0][first:] = chosen[0][first:][::-1]
+    middle = (first + len(chosen[0])) // 2
+    chosen[0][first:] = chosen[0][middle:] + chosen[0][first:middle]
     return chosen
 
 

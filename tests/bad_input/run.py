@@ -50,7 +50,8 @@ def judge(case, command, folder):
 
 
 def main():
-    kind, drivers, folder, meshes, ranks = sys.argv[1:6]
+    kind, ranks = sys.argv[1], sys.argv[5]
+    drivers, folder, meshes = (os.path.abspath(word) for word in sys.argv[2:5])
     folder = os.path.join(folder, f"{kind}-{ranks}")
     os.makedirs(folder, exist_ok=True)
     launcher = sys.argv[6:] + [ranks] if ranks != "1" else []
