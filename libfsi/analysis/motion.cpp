@@ -1,0 +1,94 @@
+#include "libfsi/analysis/motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi::analysis {
+namespace {
+
+struct Moments {
+  Real volume = 0;
+  Vec3 arm, momentum;  ///< sum alpha V (x - about), sum alpha V u
+};
+
+Moments moments(const CellField<Real>& alpha, const CellField<Vec3>& u, const Mesh& mesh,
+                const Vec3& about) {
+  std::array<Sum, 7> sums;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (alpha[c] == 0) continue;
+    const Real volume = alpha[c] * mesh.V[c];
+    const Vec3 x = mesh.C[c] + mesh.translation[nearest_image(mesh, mesh.C[c], about)] - about;
+    sums[0].add(volume);
+    for (int i = 0; i < 3; ++i) sums[1 + i].add(volume * x[i]), sums[4 + i].add(volume * u[c][i]);
+  }
+  std::array<Real, 7> total{};
+  Sum::totals(total, sums);
+  return {total[0], {total[1], total[2], total[3]}, {total[4], total[5], total[6]}};
+}
+
+/// Centre of the fullest cell, of equals the first in the mesh file: a point in the solid.
+Vec3 point_inside(const CellField<Real>& alpha, const Mesh& mesh) {
+  Real most = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) most = std::max(most, alpha[c]);
+  most = global_max(most);
+  Index best = -1;  // cells are sorted by global_id
+  for (Index c = mesh.n_owned - 1; c >= 0; --c) {
+    if (alpha[c] == most) best = c;
+  }
+  const Real id =
+      best < 0 ? std::numeric_limits<Real>::infinity() : static_cast<Real>(mesh.global_id[best]);
+  const Real first = global_min(id);
+  std::array<Sum, 3> sums;
+  if (best >= 0 && id == first) {
+    for (int i = 0; i < 3; ++i) sums[i].add(mesh.C[best][i]);
+  }
+  std::array<Real, 3> x{};
+  Sum::totals(x, sums);
+  return {x[0], x[1], x[2]};
+}
+
+Vec3 middle(const Mesh& mesh) {
+  std::array<Sum, 3> sums;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    for (int i = 0; i < 3; ++i) sums[i].add(mesh.V[c] * mesh.C[c][i]);
+  }
+  std::array<Real, 3> x{};
+  Sum::totals(x, sums);
+  return Vec3{x[0], x[1], x[2]} / mesh.total_volume;
+}
+
+}  // namespace
+
+Index nearest_image(const Mesh& mesh, const Vec3& x, const Vec3& about) {
+  Index best = 0;
+  Real least = norm2(x - about);
+  for (Index row = 1; row < static_cast<Index>(mesh.translation.size()); ++row) {
+    const Real square = norm2(x + mesh.translation[row] - about);
+    if (square < least) least = square, best = row;
+  }
+  return best;
+}
+
+Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
+              const Mesh& mesh) {
+  // From a point inside, the mean over nearest images moves to the centroid in a few rounds.
+  constexpr int first_rounds = 8;
+  if (!tracker.started) tracker.home = point_inside(alpha, mesh), tracker.middle = middle(mesh);
+  Moments sum;
+  for (int round = tracker.started ? 1 : first_rounds; round > 0; --round) {
+    sum = moments(alpha, u, mesh, tracker.home);
+    if (sum.volume == 0) return {0, tracker.home + tracker.travelled, {}};
+    tracker.home += sum.arm / sum.volume;
+    if (mesh.translation.size() == 1) break;
+  }
+  tracker.started = true;
+  const Vec3 centroid = tracker.home + tracker.travelled;
+  const Vec3 jump = mesh.translation[nearest_image(mesh, tracker.home, tracker.middle)];
+  tracker.home += jump, tracker.travelled -= jump;
+  return {sum.volume, centroid, sum.momentum / sum.volume};
+}
+
+}  // namespace fsi::analysis

@@ -1,0 +1,36 @@
+#pragma once
+// Where the solid is and how it moves.
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/mesh/mesh.hpp"
+
+namespace fsi::analysis {
+
+/// Follows a solid across periodic seams: its centroid is home + travelled. `home` is the image
+/// that lies in the mesh; it says next to which point the parts of the solid belong. A checkpoint
+/// keeps all of it, and the record goes on without a jump.
+struct Tracker {
+  Vec3 home;
+  Vec3 travelled;  ///< whole periods
+  Vec3 middle;     ///< of the mesh, once started
+  bool started = false;
+};
+
+/// Volume (area in 2-D), centroid without jumps, velocity.
+struct Motion {
+  Real volume = 0;
+  Vec3 centroid;
+  Vec3 velocity;
+};
+
+/// Collective. x_c = sum alpha x V / sum alpha V, [Matsumiya25] (18), u_c = sum alpha u V / sum
+/// alpha V, (22), over owned cells, each at its image nearest to the solid: the solid must be
+/// shorter than half a period, and move by less than that between calls. Without any solid the
+/// centroid stays and the velocity is zero. On return `tracker` stands at the new centroid.
+Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
+              const Mesh& mesh);
+
+/// The image of x nearest to `about`, as a row of mesh.translation: x + translation[row].
+Index nearest_image(const Mesh& mesh, const Vec3& x, const Vec3& about);
+
+}  // namespace fsi::analysis
