@@ -78,6 +78,23 @@ TEST(Surface, SphereIsClosedAndNear) {
   }
 }
 
+TEST(Surface, InOnePieceAcrossASeam) {
+  // Moved by a whole number of cells, once inside the mesh and once over two seams.
+  const Vec3 moved{9.0 / 16, 0, 8.0 / 16};
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh =
+        test::read_box({{16, 16, 16}, {1, 1, 1}, simplex, {"left", "right", "back", "front"}});
+    const Surface inside = surface_of(mesh, translate(sphere(0.3), centre), centre);
+    const Surface across = surface_of(mesh, translate(sphere(0.3), centre + moved), centre + moved);
+    EXPECT_LE(gap(across), 1e-14);
+    EXPECT_NEAR(area(across), area(inside), 1e-6);
+    EXPECT_NEAR(enclosed(across), enclosed(inside), 1e-6);
+    EXPECT_LE(distance(across, translate(sphere(0.3), centre + moved)), 0.2 / 16);
+    EXPECT_NEAR(orientation(across, centre + moved).value[2], orientation(inside, centre).value[2],
+                1e-6);
+  }
+}
+
 TEST(Surface, PlaneAlongTheMeshIsExact) {
   const Mesh mesh = test::read_box({{8, 8, 8}});
   const Shape slab = translate(box({0.61, infinity, infinity}), {0, 0, 0});

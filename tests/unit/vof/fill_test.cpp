@@ -105,11 +105,12 @@ TEST(Fill, PlanesAreExact) {
 }
 
 TEST(Fill, CrossesPeriodicSeams) {
-  Mesh mesh = test::read_box({{16, 16, 0}});
-  mesh.translation = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, -1, 0}};
+  const Mesh mesh =
+      test::read_box({{16, 16, 0}, {1, 1, 1}, false, {"left", "right", "bottom", "top"}});
   for (const Vec3& x : {Vec3{0.95, 0.5, 0}, {0.02, 0.97, 0}, {1, 1, 0}, {0, 1, 0}}) {
     const Result r = filled(mesh, translate(sphere(0.2), x), disc_area(0.2));
     EXPECT_LE(r.error, 1e-6);
+    EXPECT_EQ(r.clearance, infinity);  // there is no boundary
   }
   // A whole number of cells along the mesh moves the fractions with it.
   CellField<Real> inside(mesh), across(mesh);
