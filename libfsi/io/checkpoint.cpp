@@ -1,0 +1,246 @@
+#include "libfsi/io/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/io/crc.hpp"
+#include "libfsi/io/file.hpp"
+#include "libfsi/io/hdf5.hpp"
+
+namespace fsi::io {
+namespace {
+
+constexpr std::int64_t format = 1;
+constexpr std::size_t block = 512;
+using Block = std::array<char, block>;
+
+/// The user block: text that names the length and check of the bytes behind it.
+Block user_block(std::size_t length, std::uint64_t crc) {
+  Block text{};
+  std::snprintf(text.data(), text.size(), "fsi checkpoint %lld\nbytes %zu\ncrc64 %016llx\n",
+                static_cast<long long>(format), length, static_cast<unsigned long long>(crc));
+  return text;
+}
+
+/// Whether the file is what was once written; the reason where it is not.
+std::string damage(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return "it cannot be opened";
+  Block found{};
+  stream.read(found.data(), found.size());
+  std::vector<char> chunk(1 << 20);
+  std::size_t length = 0;
+  std::uint64_t crc = 0;
+  while (stream) {
+    stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    const auto n = static_cast<std::size_t>(stream.gcount());
+    crc = crc64(std::as_bytes(std::span(chunk).first(n)), crc);
+    length += n;
+  }
+  return found == user_block(length, crc) ? "" : "its length or checksum is wrong";
+}
+
+/// Numbers of the checkpoints in a directory, ascending; files that only look alike are left alone.
+std::vector<std::int64_t> numbers_in(const std::string& directory) {
+  std::vector<std::int64_t> numbers;
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, code)) {
+    const std::string name = entry.path().filename().string();
+    long long number = 0;
+    int end = 0;
+    if (std::sscanf(name.c_str(), "checkpoint_%lld.h5%n", &number, &end) == 1 &&
+        end == static_cast<int>(name.size()) && number > 0)
+      numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+void warn(const std::string& sentence) {
+  if (rank() == 0) std::fprintf(stderr, "fsi: warning: %s\n", sentence.c_str());
+}
+
+void write_scalars(Hdf5Image& image, const Snapshot& snapshot) {
+  image.group("/scalars");
+  for (const auto& [name, scalar] : snapshot.scalars()) {
+    if (const auto* real = std::get_if<Real*>(&scalar)) image.attribute("/scalars", name, **real);
+    if (const auto* whole = std::get_if<std::int64_t*>(&scalar))
+      image.attribute("/scalars", name, std::span<const std::int64_t>(*whole, 1));
+    if (const auto* text = std::get_if<std::string*>(&scalar))
+      image.attribute("/scalars", name, **text);
+  }
+}
+
+/// Rank 0 reads; "" or the name of the first scalar that is not there.
+std::string read_scalars(const Hdf5File& file, const Snapshot& snapshot) {
+  for (const auto& [name, scalar] : snapshot.scalars()) {
+    const bool good = std::visit(
+        [&, &key = name](auto* value) { return file.attribute("/scalars", key, *value); }, scalar);
+    if (!good) return name;
+  }
+  return "";
+}
+
+void share_scalars(const Snapshot& snapshot) {
+  for (const auto& item : snapshot.scalars()) {
+    const Snapshot::Scalar& scalar = item.second;
+    if (const auto* real = std::get_if<Real*>(&scalar)) MPI_Bcast(*real, 1, MPI_DOUBLE, 0, comm());
+    if (const auto* whole = std::get_if<std::int64_t*>(&scalar))
+      MPI_Bcast(*whole, 1, MPI_INT64_T, 0, comm());
+    if (const auto* text = std::get_if<std::string*>(&scalar)) **text = broadcast(**text);
+  }
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)
+    : directory_(std::move(directory)),
+      mesh_(mesh),
+      cells_(mesh, On::cells),
+      faces_(mesh, On::faces),
+      boundary_(mesh, On::boundary),
+      fingerprint_(fingerprint(mesh)) {
+  if (rank() == 0) {
+    const std::vector<std::int64_t> numbers = numbers_in(directory_);
+    if (!numbers.empty()) next_ = numbers.back() + 1;
+    std::error_code code;
+    std::filesystem::remove(temporary_of(path(next_)), code);
+  }
+  MPI_Bcast(&next_, 1, MPI_INT64_T, 0, comm());
+}
+
+const Layout& Checkpoint::layout(On on) const {
+  return on == On::cells ? cells_ : on == On::faces ? faces_ : boundary_;
+}
+
+std::string Checkpoint::path(std::int64_t number) const {
+  char name[48];
+  std::snprintf(name, sizeof name, "/checkpoint_%04lld.h5", static_cast<long long>(number));
+  return directory_ + name;
+}
+
+void Checkpoint::keep_two() const {
+  const std::vector<std::int64_t> numbers = numbers_in(directory_);
+  std::error_code code;
+  for (std::size_t i = 0; i + 2 < numbers.size(); ++i)
+    std::filesystem::remove(path(numbers[i]), code);
+}
+
+bool Checkpoint::write(const Snapshot& snapshot) {
+  for (const Snapshot::Values& f : snapshot.fields())
+    require_finite(f.name, f.values, f.width, f.on, mesh_);
+  std::optional<Hdf5Image> image;
+  if (rank() == 0) {
+    std::size_t reals = 0;
+    for (const Snapshot::Values& f : snapshot.fields())
+      reals += static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width);
+    image.emplace(reals * sizeof(Real), block);
+    image->group("/fields");
+  }
+  for (const Snapshot::Values& f : snapshot.fields()) {
+    const std::vector<Real> all = layout(f.on).gather(f.values, f.width);
+    if (image) image->dataset("/fields/" + f.name, all, f.width);
+  }
+  std::string reason;
+  if (image) {
+    write_scalars(*image, snapshot);
+    const std::array<std::int64_t, 1> cells{mesh_.n_global}, count{ranks()}, version{format},
+        done{1}, print{static_cast<std::int64_t>(fingerprint_)};
+    image->attribute("/", "format", version);
+    image->attribute("/", "mesh", print);
+    image->attribute("/", "cells", cells);
+    image->attribute("/", "ranks", count);
+    image->attribute("/", "identity", snapshot.identity());
+    image->attribute("/", "complete", done);
+    const Bytes bytes = image->bytes();
+    if (bytes.size() > block) {
+      const Bytes rest = bytes.subspan(block);
+      const Block head = user_block(rest.size(), crc64(rest));
+      reason = replace_file(path(next_), {std::as_bytes(std::span(head)), rest}, Durable::yes);
+    } else {
+      reason = "HDF5 could not make it";
+    }
+    if (reason.empty()) keep_two();
+  }
+  reason = broadcast(reason);
+  if (!reason.empty()) {
+    warn("checkpoint \"" + path(next_) + "\" could not be written: " + reason +
+         "; the run goes on and tries again at the next one");
+    return false;
+  }
+  file_ = path(next_++);
+  return true;
+}
+
+std::string Checkpoint::objection(const Hdf5File& file, const Snapshot& snapshot) const {
+  std::int64_t print = 0, version = 0, cells = 0;
+  std::string identity;
+  if (!file.ok() || !file.attribute("/", "format", version) || version != format)
+    return "is of another version of the program";
+  if (!file.attribute("/", "cells", cells) || !file.attribute("/", "mesh", print) ||
+      cells != mesh_.n_global || static_cast<std::uint64_t>(print) != fingerprint_)
+    return "is of another mesh: that one has " + std::to_string(cells) + " cells, this one " +
+           std::to_string(mesh_.n_global) + ", or they differ in geometry, patches or periods";
+  if (!file.attribute("/", "identity", identity) || identity != snapshot.identity())
+    return "is of another run: it says \"" + identity + "\", this run is \"" +
+           snapshot.identity() + "\"";
+  const std::string name = read_scalars(file, snapshot);
+  return name.empty() ? "" : "holds no \"" + name + "\"";
+}
+
+void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
+  const auto agree = [&](const std::string& reason) {
+    const std::string shared = broadcast(reason);
+    require(shared.empty(), "checkpoint \"" + file + "\" " + shared);
+  };
+  std::optional<Hdf5File> source;
+  if (rank() == 0) source.emplace(file);
+  agree(source ? objection(*source, snapshot) : "");
+  for (const Snapshot::Values& f : snapshot.fields()) {
+    std::vector<Real> all;
+    bool good = true;
+    if (source) {
+      all.resize(static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width));
+      good = source->dataset("/fields/" + f.name, all);
+    }
+    agree(good ? "" : "holds no field \"" + f.name + "\" of this size");
+    layout(f.on).scatter(all, f.width, f.values);
+    if (f.on == On::cells) mesh_.halo.update(f.values, f.width);
+  }
+  share_scalars(snapshot);
+}
+
+void Checkpoint::read(const Snapshot& snapshot) {
+  std::string sound, damaged;
+  if (rank() == 0) {
+    std::vector<std::int64_t> numbers = numbers_in(directory_);
+    for (; sound.empty() && !numbers.empty(); numbers.pop_back()) {
+      const std::string candidate = path(numbers.back());
+      const std::string reason = damage(candidate);
+      if (reason.empty()) {
+        sound = candidate;
+        continue;
+      }
+      damaged += (damaged.empty() ? "" : ", ") + candidate;
+      warn("checkpoint \"" + candidate + "\" is damaged (" + reason + "); set aside");
+      std::error_code code;
+      std::filesystem::rename(candidate, candidate + ".damaged", code);
+    }
+  }
+  sound = broadcast(sound);
+  damaged = broadcast(damaged);
+  if (sound.empty() && !damaged.empty())
+    throw Error(Kind::io, "all checkpoints are damaged: " + damaged);
+  require(!sound.empty(), "there is no checkpoint in \"" + directory_ +
+                              "\" to go on from; leave out -restart, or choose its -output_dir");
+  load(sound, snapshot);
+  file_ = sound;
+}
+
+}  // namespace fsi::io

@@ -1,0 +1,85 @@
+#pragma once
+// Checkpoints: all that the next step depends on, readable on any number of ranks.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/io/layout.hpp"
+
+namespace fsi::io {
+
+class Hdf5File;
+
+/// What a checkpoint holds, by name, as references to where it lives: the same list serves to write
+/// and to read.
+class Snapshot {
+ public:
+  using Scalar = std::variant<Real*, std::int64_t*, std::string*>;
+  struct Values {
+    std::string name;
+    On on;
+    int width;
+    Real* values;
+  };
+
+  /// identity: what else than the mesh must be the same to go on from a checkpoint (the driver, the
+  /// kind of kinematics); "key=value" items that are compared as one text.
+  explicit Snapshot(std::string identity = "") : identity_(std::move(identity)) {}
+
+  template <class T, On on>
+  void add(const std::string& name, Field<T, on>& field) {
+    fields_.push_back({name, on, components<T>, reinterpret_cast<Real*>(field.data())});
+  }
+  void add(const std::string& name, Scalar scalar) { scalars_.emplace_back(name, scalar); }
+
+  const std::string& identity() const { return identity_; }
+  const std::vector<Values>& fields() const { return fields_; }
+  const std::vector<std::pair<std::string, Scalar>>& scalars() const { return scalars_; }
+
+ private:
+  std::string identity_;
+  std::vector<Values> fields_;
+  std::vector<std::pair<std::string, Scalar>> scalars_;
+};
+
+/// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept.
+/// A file is whole or not there; its user block holds length and CRC-64 of all the rest. Values stand
+/// in an order that no division of the mesh changes.
+class Checkpoint {
+ public:
+  /// Collective. Removes what an interrupted write left behind.
+  Checkpoint(std::string directory, const Mesh& mesh);
+
+  /// Collective. Returns whether it was written. A disk that is full or forbids it is no error: a
+  /// warning is printed, the older checkpoints stay and the run may go on. Errors: Error{numerics}
+  /// when a value is not finite; nothing is then written.
+  bool write(const Snapshot& snapshot);
+
+  /// Collective. Fills what `snapshot` refers to, bit for bit, from the newest checkpoint that is
+  /// sound; damaged ones are named in a warning and set aside. On return the halo cells are set too.
+  /// Errors: Error{input} when there is none, or it is of another mesh, identity or list of names;
+  /// Error{io} when all are damaged.
+  void read(const Snapshot& snapshot);
+
+  /// The file last written or read; "" before.
+  const std::string& file() const { return file_; }
+
+ private:
+  const Layout& layout(On on) const;
+  std::string path(std::int64_t number) const;
+  void keep_two() const;
+  std::string objection(const Hdf5File& file, const Snapshot& snapshot) const;
+  void load(const std::string& file, const Snapshot& snapshot) const;
+
+  std::string directory_, file_;
+  const Mesh& mesh_;
+  Layout cells_, faces_, boundary_;
+  std::uint64_t fingerprint_;
+  std::int64_t next_ = 1;  ///< number of the next file
+};
+
+}  // namespace fsi::io
