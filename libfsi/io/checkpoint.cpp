@@ -17,33 +17,35 @@ namespace fsi::io {
 namespace {
 
 constexpr std::int64_t format = 1;
-constexpr std::size_t block = 512;
-using Block = std::array<char, block>;
 
-/// The user block: text that names the length and check of the bytes behind it.
-Block user_block(std::size_t length, std::uint64_t crc) {
-  Block text{};
-  std::snprintf(text.data(), text.size(), "fsi checkpoint %lld\nbytes %zu\ncrc64 %016llx\n",
+/// What stands behind the HDF5 file: its length and check, as text. HDF5 does not look there.
+using Trailer = std::array<char, 96>;
+
+Trailer trailer(std::size_t length, std::uint64_t crc) {
+  Trailer text{};
+  std::snprintf(text.data(), text.size(), "\nfsi checkpoint %lld\nbytes %zu\ncrc64 %016llx\n",
                 static_cast<long long>(format), length, static_cast<unsigned long long>(crc));
   return text;
 }
 
-/// Whether the file is what was once written; the reason where it is not.
+/// Whether the file is what was once written: "", or the reason where it is not.
 std::string damage(const std::string& path) {
+  std::error_code code;
+  const std::uintmax_t size = std::filesystem::file_size(path, code);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return "it cannot be opened";
-  Block found{};
-  stream.read(found.data(), found.size());
+  if (code || !stream) return "it cannot be opened";
+  Trailer found{};
+  if (size < found.size()) return "it is too short";
+  const std::size_t length = size - found.size();
   std::vector<char> chunk(1 << 20);
-  std::size_t length = 0;
   std::uint64_t crc = 0;
-  while (stream) {
-    stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    const auto n = static_cast<std::size_t>(stream.gcount());
+  for (std::size_t at = 0; at < length && stream; at += chunk.size()) {
+    const std::size_t n = std::min(chunk.size(), length - at);
+    stream.read(chunk.data(), static_cast<std::streamsize>(n));
     crc = crc64(std::as_bytes(std::span(chunk).first(n)), crc);
-    length += n;
   }
-  return found == user_block(length, crc) ? "" : "its length or checksum is wrong";
+  stream.read(found.data(), found.size());
+  return stream && found == trailer(length, crc) ? "" : "its length or checksum is wrong";
 }
 
 /// Numbers of the checkpoints in a directory, ascending; files that only look alike are left alone.
@@ -104,8 +106,7 @@ Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)
       mesh_(mesh),
       cells_(mesh, On::cells),
       faces_(mesh, On::faces),
-      boundary_(mesh, On::boundary),
-      fingerprint_(fingerprint(mesh)) {
+      boundary_(mesh, On::boundary) {
   if (rank() == 0) {
     const std::vector<std::int64_t> numbers = numbers_in(directory_);
     if (!numbers.empty()) next_ = numbers.back() + 1;
@@ -140,7 +141,7 @@ bool Checkpoint::write(const Snapshot& snapshot) {
     std::size_t reals = 0;
     for (const Snapshot::Values& f : snapshot.fields())
       reals += static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width);
-    image.emplace(reals * sizeof(Real), block);
+    image.emplace(reals * sizeof(Real));
     image->group("/fields");
   }
   for (const Snapshot::Values& f : snapshot.fields()) {
@@ -151,21 +152,18 @@ bool Checkpoint::write(const Snapshot& snapshot) {
   if (image) {
     write_scalars(*image, snapshot);
     const std::array<std::int64_t, 1> cells{mesh_.n_global}, count{ranks()}, version{format},
-        done{1}, print{static_cast<std::int64_t>(fingerprint_)};
+        done{1}, hash{static_cast<std::int64_t>(mesh_.hash)};
     image->attribute("/", "format", version);
-    image->attribute("/", "mesh", print);
+    image->attribute("/", "mesh", hash);
     image->attribute("/", "cells", cells);
     image->attribute("/", "ranks", count);
     image->attribute("/", "identity", snapshot.identity());
     image->attribute("/", "complete", done);
     const Bytes bytes = image->bytes();
-    if (bytes.size() > block) {
-      const Bytes rest = bytes.subspan(block);
-      const Block head = user_block(rest.size(), crc64(rest));
-      reason = replace_file(path(next_), {std::as_bytes(std::span(head)), rest}, Durable::yes);
-    } else {
-      reason = "HDF5 could not make it";
-    }
+    const Trailer check = trailer(bytes.size(), crc64(bytes));
+    reason = bytes.empty() ? "HDF5 could not make it"
+                           : replace_file(path(next_), {bytes, std::as_bytes(std::span(check))},
+                                          Durable::yes);
     if (reason.empty()) keep_two();
   }
   reason = broadcast(reason);
@@ -179,17 +177,17 @@ bool Checkpoint::write(const Snapshot& snapshot) {
 }
 
 std::string Checkpoint::objection(const Hdf5File& file, const Snapshot& snapshot) const {
-  std::int64_t print = 0, version = 0, cells = 0;
+  std::int64_t hash = 0, version = 0, cells = 0;
   std::string identity;
   if (!file.ok() || !file.attribute("/", "format", version) || version != format)
     return "is of another version of the program";
-  if (!file.attribute("/", "cells", cells) || !file.attribute("/", "mesh", print) ||
-      cells != mesh_.n_global || static_cast<std::uint64_t>(print) != fingerprint_)
+  if (!file.attribute("/", "cells", cells) || !file.attribute("/", "mesh", hash) ||
+      cells != mesh_.n_global || static_cast<std::uint64_t>(hash) != mesh_.hash)
     return "is of another mesh: that one has " + std::to_string(cells) + " cells, this one " +
            std::to_string(mesh_.n_global) + ", or they differ in geometry, patches or periods";
   if (!file.attribute("/", "identity", identity) || identity != snapshot.identity())
-    return "is of another run: it says \"" + identity + "\", this run is \"" +
-           snapshot.identity() + "\"";
+    return "is of another run: it says \"" + identity + "\", this run is \"" + snapshot.identity() +
+           "\"";
   const std::string name = read_scalars(file, snapshot);
   return name.empty() ? "" : "holds no \"" + name + "\"";
 }
@@ -228,9 +226,10 @@ void Checkpoint::read(const Snapshot& snapshot) {
         continue;
       }
       damaged += (damaged.empty() ? "" : ", ") + candidate;
-      warn("checkpoint \"" + candidate + "\" is damaged (" + reason + "); set aside");
       std::error_code code;
-      std::filesystem::rename(candidate, candidate + ".damaged", code);
+      if (std::ifstream(candidate))
+        std::filesystem::rename(candidate, candidate + ".damaged", code);
+      warn("checkpoint \"" + candidate + "\" is damaged (" + reason + "); passed over");
     }
   }
   sound = broadcast(sound);

@@ -47,8 +47,8 @@ class Snapshot {
 };
 
 /// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept.
-/// A file is whole or not there; its user block holds length and CRC-64 of all the rest. Values stand
-/// in an order that no division of the mesh changes.
+/// A file is whole or not there: HDF5, and behind it the length and CRC-64 of all before. Values
+/// stand in an order that no division of the mesh changes.
 class Checkpoint {
  public:
   /// Collective. Removes what an interrupted write left behind.
@@ -60,9 +60,9 @@ class Checkpoint {
   bool write(const Snapshot& snapshot);
 
   /// Collective. Fills what `snapshot` refers to, bit for bit, from the newest checkpoint that is
-  /// sound; damaged ones are named in a warning and set aside. On return the halo cells are set too.
-  /// Errors: Error{input} when there is none, or it is of another mesh, identity or list of names;
-  /// Error{io} when all are damaged.
+  /// sound; damaged ones are named in a warning and set aside. On return the halo cells are set
+  /// too. Errors: Error{input} when there is none, or it is of another mesh, identity or list of
+  /// names; Error{io} when all are damaged.
   void read(const Snapshot& snapshot);
 
   /// The file last written or read; "" before.
@@ -78,7 +78,6 @@ class Checkpoint {
   std::string directory_, file_;
   const Mesh& mesh_;
   Layout cells_, faces_, boundary_;
-  std::uint64_t fingerprint_;
   std::int64_t next_ = 1;  ///< number of the next file
 };
 

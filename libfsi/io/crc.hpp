@@ -27,7 +27,8 @@ constexpr std::array<std::uint64_t, 256> crc_table() {
 inline std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before = 0) {
   static constexpr std::array<std::uint64_t, 256> table = detail::crc_table();
   std::uint64_t crc = ~before;
-  for (const std::byte b : bytes) crc = table[(crc ^ static_cast<std::uint8_t>(b)) & 0xff] ^ (crc >> 8);
+  for (const std::byte b : bytes)
+    crc = table[(crc ^ static_cast<std::uint8_t>(b)) & 0xff] ^ (crc >> 8);
   return ~crc;
 }
 

@@ -65,7 +65,8 @@ Lock::Lock(const std::string& directory) {
   if (rank() == 0) {
     const std::string file = directory + "/.lock";
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    taken = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    taken =
+        descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (taken) ::close(descriptor_), descriptor_ = -1;
   }
   require(all_of_ranks(!taken), "output directory \"" + directory +

@@ -53,14 +53,12 @@ hid_t text_type(std::size_t length) {
 
 }  // namespace
 
-Hdf5Image::Hdf5Image(std::size_t expected, std::size_t user_block) {
+Hdf5Image::Hdf5Image(std::size_t expected) {
   const Quiet quiet;
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   access_ = H5Pcreate(H5P_FILE_ACCESS);
   constexpr std::size_t spare = 1 << 16;  // for what is not data
-  ok_ = creation.ok() && access_ >= 0 && H5Pset_userblock(creation, user_block) >= 0 &&
-        H5Pset_fapl_core(access_, expected + spare, 0) >= 0;
-  if (ok_) file_ = H5Fcreate("image", H5F_ACC_TRUNC, creation, access_);
+  ok_ = access_ >= 0 && H5Pset_fapl_core(access_, expected + spare, 0) >= 0;
+  if (ok_) file_ = H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_);
   ok_ = ok_ && file_ >= 0;
 }
 
@@ -114,8 +112,8 @@ void Hdf5Image::attach(const std::string& object, const std::string& name, Hdf5I
   if (!ok_) return;
   const Quiet quiet;
   const hsize_t dim = count;
-  const Handle space(
-      count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &dim, nullptr), H5Sclose);
+  const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &dim, nullptr),
+                     H5Sclose);
   const Handle owner(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
   ok_ = space.ok() && owner.ok();
   if (!ok_) return;
@@ -178,8 +176,7 @@ bool Hdf5File::dataset(const std::string& path, std::span<Real> values) const {
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.ok()) return false;
   const Handle space(H5Dget_space(set), H5Sclose);
-  if (!space.ok() ||
-      H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(values.size()))
+  if (!space.ok() || H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(values.size()))
     return false;
   return values.empty() ||
          H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
@@ -205,8 +202,8 @@ bool Hdf5File::attribute(const std::string& object, const std::string& name,
 bool Hdf5File::attribute(const std::string& object, const std::string& name,
                          std::string& value) const {
   const Quiet quiet;
-  const Handle held(
-      H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle held(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
   if (!held.ok()) return false;
   const Handle type(H5Aget_type(held), H5Tclose);
   if (!type.ok() || H5Tget_class(type) != H5T_STRING) return false;

@@ -1,6 +1,7 @@
 #pragma once
-// HDF5 files by one rank: made in memory, so that HDF5 itself never meets a full disk, and read with
-// every status kept. Nothing here throws: ok() is asked once at the end, then agreed on by all ranks.
+// HDF5 files by one rank: made in memory, so that HDF5 itself never meets a full disk, and read
+// with every status kept. Nothing here throws: ok() is asked once at the end, then agreed on by all
+// ranks.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +19,8 @@ using Hdf5Id = std::int64_t;
 /// A file being made. Invariant: once a call fails, ok() stays false.
 class Hdf5Image {
  public:
-  /// expected: about the bytes it will hold; user_block: bytes kept free at the front (0, or a power
-  /// of two from 512).
-  Hdf5Image(std::size_t expected, std::size_t user_block);
+  /// expected: about the bytes it will hold.
+  explicit Hdf5Image(std::size_t expected);
   ~Hdf5Image();
   Hdf5Image(const Hdf5Image&) = delete;
   Hdf5Image& operator=(const Hdf5Image&) = delete;
@@ -39,7 +39,7 @@ class Hdf5Image {
   void link(const std::string& path, const std::string& file);
 
   bool ok() const { return ok_; }
-  /// The file as it stands, user block included; empty unless ok. Valid while this lives.
+  /// The file as it stands; empty unless ok. Valid while this lives and nothing is added.
   std::span<const std::byte> bytes();
 
  private:

@@ -1,7 +1,6 @@
 #include "libfsi/io/layout.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <compare>
 #include <cstdio>
@@ -66,16 +65,6 @@ std::vector<std::vector<T>> collect(const std::vector<T>& mine) {
   return all;
 }
 
-std::uint64_t mix(std::uint64_t h, std::uint64_t value) {
-  // The finaliser of splitmix64 [Steele14].
-  h += value + 0x9e3779b97f4a7c15ULL;
-  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
-  return h ^ (h >> 31);
-}
-
-std::uint64_t bits(Real value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
-
 }  // namespace
 
 Layout::Layout(const Mesh& mesh, On on) {
@@ -88,12 +77,14 @@ Layout::Layout(const Mesh& mesh, On on) {
 void Layout::place_cells(const Mesh& mesh) {
   size_ = mesh.n_global;
   n_local_ = mesh.n_owned;
-  places_ = collect(std::vector(mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned));
+  if (ranks() > 1)
+    places_ = collect(std::vector(mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned));
 }
 
 void Layout::place_faces(const Mesh& mesh, bool boundary_only) {
   const Index first = boundary_only ? mesh.n_internal : 0;
-  n_local_ = mesh.n_faces - first;
+  n_local_ = size_ = mesh.n_faces - first;
+  if (ranks() == 1) return;
   const std::vector<std::vector<Key>> keys = collect(keys_of_faces(mesh, first));
   std::vector<std::int8_t> mine(static_cast<std::size_t>(n_local_));
   for (Index i = 0; i < n_local_; ++i)
@@ -125,6 +116,7 @@ void Layout::place_faces(const Mesh& mesh, bool boundary_only) {
 
 std::vector<Real> Layout::gather(const Real* values, int width) const {
   const auto w = static_cast<std::size_t>(width);
+  if (ranks() == 1) return {values, values + static_cast<std::ptrdiff_t>(size_) * width};
   if (rank() != 0) {
     MPI_Send(values, n_local_ * width, MPI_DOUBLE, 0, tag, comm());
     return {};
@@ -148,6 +140,10 @@ std::vector<Real> Layout::gather(const Real* values, int width) const {
 
 void Layout::scatter(std::span<const Real> all, int width, Real* values) const {
   const auto w = static_cast<std::size_t>(width);
+  if (ranks() == 1) {
+    std::copy(all.begin(), all.end(), values);
+    return;
+  }
   if (rank() != 0) {
     MPI_Recv(values, n_local_ * width, MPI_DOUBLE, 0, tag, comm(), MPI_STATUS_IGNORE);
     return;
@@ -164,27 +160,6 @@ void Layout::scatter(std::span<const Real> all, int width, Real* values) const {
     if (r > 0)
       MPI_Send(to, static_cast<int>(other.size()), MPI_DOUBLE, static_cast<int>(r), tag, comm());
   }
-}
-
-std::uint64_t fingerprint(const Mesh& mesh) {
-  std::uint64_t sum = 0;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    std::uint64_t h = static_cast<std::uint64_t>(mesh.global_id[c]);
-    for (const Real value : {mesh.C[c].x, mesh.C[c].y, mesh.C[c].z, mesh.V[c]})
-      h = mix(h, bits(value));
-    sum += h;
-  }
-  const std::vector<Key> keys = keys_of_faces(mesh, 0);
-  for (Index f = 0; f < mesh.n_faces; ++f) {
-    if (mesh.owner[f] >= mesh.n_owned) continue;
-    std::uint64_t h = 1;
-    const Key& key = keys[static_cast<std::size_t>(f)];
-    for (const std::int64_t value : {key.patch, key.P, key.N, key.k})
-      h = mix(h, static_cast<std::uint64_t>(value));
-    sum += h;
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_UINT64_T, MPI_SUM, comm());
-  return mix(static_cast<std::uint64_t>(mesh.n_global), sum);
 }
 
 void require_finite(const std::string& name, const Real* values, int width, On on,
@@ -214,8 +189,7 @@ void require_finite(const std::string& name, const Real* values, int width, On o
                   on == On::cells ? "in" : "on a face of", static_cast<long long>(lowest), x.x, x.y,
                   x.z);
   }
-  throw Error(Kind::numerics,
-              "field \"" + name + "\" is not finite " + broadcast(place, holder));
+  throw Error(Kind::numerics, "field \"" + name + "\" is not finite " + broadcast(place, holder));
 }
 
 }  // namespace fsi::io

@@ -1,7 +1,6 @@
 #pragma once
 // From the values each rank holds to one order that no division of the mesh changes, and back.
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,13 +35,10 @@ class Layout {
 
   GlobalIndex size_ = 0;
   Index n_local_ = 0;
-  /// Rank 0: [ranks][items] place, or its complement ~place where another rank owns the item.
+  /// Rank 0: [ranks][items] place, or its complement ~place where another rank owns the item. Empty
+  /// on one rank, whose order is the file's.
   std::vector<std::vector<GlobalIndex>> places_;
 };
-
-/// Collective. A number that meshes of other cells, geometry, patches or periods do not share and
-/// that the count of ranks does not change.
-std::uint64_t fingerprint(const Mesh& mesh);
 
 /// Collective. Errors: Error{numerics} naming field, cell and place of a value that is not finite.
 /// values: `width` Reals per item.
