@@ -4,7 +4,7 @@ target_compile_options(fsi_flags INTERFACE -Wall -Wextra -Wshadow -Wpedantic -We
 # No fused multiply-add contraction: a face seen from two ranks gives the same bits on both.
 target_compile_options(fsi_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(FSI_SANITIZE)
-  target_compile_options(fsi_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_compile_options(fsi_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -O1)
   target_link_options(fsi_flags INTERFACE -fsanitize=address,undefined)
   target_sources(fsi_flags INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitize/keep_loaded.cpp)
 endif()
