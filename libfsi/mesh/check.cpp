@@ -50,7 +50,8 @@ void check_manifold(const CellList& list, const RawMesh& raw, const std::vector<
   });
 }
 
-void check_connected(const CellList& list, const std::string& file, const std::vector<Index>& mate) {
+void check_connected(const CellList& list, const std::string& file,
+                     const std::vector<Index>& mate) {
   std::vector<Index> part(list.types.size(), -1), queue, sizes, firsts;
   for (Index seed = 0; seed < list.n_cells(); ++seed) {
     if (part[seed] >= 0) continue;
@@ -91,8 +92,8 @@ class NamedSides {
     for (std::size_t i = 1; i < sides_.size(); ++i) {
       const Entry &a = sides_[i - 1], &b = sides_[i];
       if (a.key != b.key || a.side->name == b.side->name) continue;
-      refuse(raw.file + ": boundary element " + std::to_string(b.side->tag) + " carries two names: " +
-             raw.names[a.side->name] + ", " + raw.names[b.side->name]);
+      refuse(raw.file + ": boundary element " + std::to_string(b.side->tag) +
+             " carries two names: " + raw.names[a.side->name] + ", " + raw.names[b.side->name]);
     }
   }
   /// The number of the face's name, or -1.
@@ -110,8 +111,8 @@ class NamedSides {
     for (const Entry& entry : sides_) {
       if (entry.used) continue;
       refuse(raw_.file + ": boundary element " + std::to_string(entry.side->tag) + " of \"" +
-             raw_.names[entry.side->name] + "\" at " +
-             text_of(raw_.points[entry.side->corner[0]]) + " is not a face of any cell");
+             raw_.names[entry.side->name] + "\" at " + text_of(raw_.points[entry.side->corner[0]]) +
+             " is not a face of any cell");
     }
   }
 

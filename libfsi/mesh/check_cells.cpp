@@ -54,9 +54,10 @@ void flatten(RawMesh& raw) {
     }
   }
   require(high.z - low.z <= 1e-10 * norm(high - low),
-          raw.file + " holds no volume elements, and its surface elements do not lie in one plane "
-                     "z = const: z goes from " + std::to_string(low.z) + " to " +
-              std::to_string(high.z));
+          raw.file +
+              " holds no volume elements, and its surface elements do not lie in one plane "
+              "z = const: z goes from " +
+              std::to_string(low.z) + " to " + std::to_string(high.z));
   for (Vec3& x : raw.points) x.z = 0;
 }
 
@@ -66,7 +67,8 @@ void check_repeated(const RawMesh& raw) {
     for (std::size_t i = 1; i < corners.size(); ++i) {
       const auto before = corners.first(i);
       if (std::ranges::find(before, corners[i]) == before.end()) continue;
-      refuse(element(raw, c) + " names node " + std::to_string(raw.point_tags[corners[i]]) + " twice");
+      refuse(element(raw, c) + " names node " + std::to_string(raw.point_tags[corners[i]]) +
+             " twice");
     }
   }
 }
@@ -74,12 +76,20 @@ void check_repeated(const RawMesh& raw) {
 /// Reverses the orientation of a cell by the order of its corners.
 void turn(CellType type, std::span<Index> x) {
   switch (type) {
-    case CellType::triangle: return std::swap(x[1], x[2]);
-    case CellType::quad: return std::swap(x[1], x[3]);
-    case CellType::tet: return std::swap(x[1], x[2]);
-    case CellType::pyramid: return std::swap(x[1], x[3]);
-    case CellType::hex: std::ranges::swap_ranges(x.first(4), x.last(4)); return;
-    case CellType::prism: std::ranges::swap_ranges(x.first(3), x.last(3)); return;
+    case CellType::triangle:
+      return std::swap(x[1], x[2]);
+    case CellType::quad:
+      return std::swap(x[1], x[3]);
+    case CellType::tet:
+      return std::swap(x[1], x[2]);
+    case CellType::pyramid:
+      return std::swap(x[1], x[3]);
+    case CellType::hex:
+      std::ranges::swap_ranges(x.first(4), x.last(4));
+      return;
+    case CellType::prism:
+      std::ranges::swap_ranges(x.first(3), x.last(3));
+      return;
   }
 }
 

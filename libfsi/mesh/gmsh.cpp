@@ -61,7 +61,9 @@ constexpr GmshType known_types[] = {
 
 class Reader {
  public:
-  Reader(const std::string& file, std::string text) : in_(file, std::move(text)) { raw_.file = file; }
+  Reader(const std::string& file, std::string text) : in_(file, std::move(text)) {
+    raw_.file = file;
+  }
   RawMesh read();
 
  private:
@@ -91,7 +93,7 @@ class Reader {
   RawMesh raw_;
   Numbering numbering_;
   Elements elements_[4];
-  std::map<std::pair<int, std::int32_t>, std::string> names_;                     // (dim, physical)
+  std::map<std::pair<int, std::int32_t>, std::string> names_;                    // (dim, physical)
   std::map<std::pair<int, std::int32_t>, std::vector<std::int32_t>> physicals_;  // (dim, entity)
 };
 
@@ -299,7 +301,8 @@ void Reader::section(const std::string& name) {
 RawMesh Reader::read() {
   format();
   for (std::string name(in_.word()); !name.empty(); name = in_.word()) {
-    if (name.front() != '$') in_.fail("expected a section ($...), found \"" + name.substr(0, 40) + "\"");
+    if (name.front() != '$')
+      in_.fail("expected a section ($...), found \"" + name.substr(0, 40) + "\"");
     in_.set_section(name);
     const std::string end = "$End" + name.substr(1);
     const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" ||

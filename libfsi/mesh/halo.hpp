@@ -33,7 +33,8 @@ class Halo {
     update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>);
   }
 
-  /// Collective. The reverse: adds every halo copy's value to the owner's cell; halo part unchanged.
+  /// Collective. The reverse: adds every halo copy's value to the owner's cell; halo part
+  /// unchanged.
   void add_to_owner(Real* values, int width) const;
 
  private:

@@ -41,35 +41,40 @@ struct Patch {
 struct Mesh {
   int dim = 3;
   Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;
-  GlobalIndex n_global = 0;             ///< cells of all ranks
+  GlobalIndex n_global = 0;  ///< cells of all ranks
 
   // faces
-  std::vector<Index> owner;             ///< [n_faces] P
-  std::vector<Index> neighbour;         ///< [n_internal] N
-  std::vector<Vec3> Sf;                 ///< [n_faces] area vector, from P to N or outward
-  std::vector<Vec3> Cf;                 ///< [n_faces] centroid, in the frame of P
-  std::vector<Vec3> d;                  ///< [n_faces] C_N - C_P (image of N next to P); boundary: Cf - C_P
-  std::vector<Index> shift;             ///< [n_internal] row of `translation`: N is seen from P at C[N] + translation[shift]
-  Csr face_points;                      ///< [n_faces] corners in order, right-handed about Sf (2-D: the two ends), frame of P
-  std::vector<Patch> patches;           ///< cover [n_internal, n_faces)
+  std::vector<Index> owner;      ///< [n_faces] P
+  std::vector<Index> neighbour;  ///< [n_internal] N
+  std::vector<Vec3> Sf;          ///< [n_faces] area vector, from P to N or outward
+  std::vector<Vec3> Cf;          ///< [n_faces] centroid, in the frame of P
+  /// [n_faces] C_N - C_P (image of N next to P); boundary: Cf - C_P
+  std::vector<Vec3> d;
+  /// [n_internal] row of `translation`: N is seen from P at C[N] + translation[shift]
+  std::vector<Index> shift;
+  /// [n_faces] corners in order, right-handed about Sf (2-D: the two ends), frame of P
+  Csr face_points;
+  std::vector<Patch> patches;  ///< cover [n_internal, n_faces)
 
   // cells
-  std::vector<Vec3> C;                  ///< [n_cells] centroid
-  std::vector<Real> V;                  ///< [n_cells] volume, area in 2-D
-  std::vector<GlobalIndex> global_id;   ///< [n_cells] position of the cell in the mesh file, from 0
-  Csr cell_faces;                       ///< [n_owned] faces of the cell, ascending
-  Csr cell_neighbours;                  ///< [n_owned] cells that share a vertex, itself excluded, sorted by (global_id, shift)
-  std::vector<std::int8_t> cell_neighbour_shift;  ///< beside cell_neighbours.index: that cell is seen at C[n] + translation[shift]
+  std::vector<Vec3> C;                 ///< [n_cells] centroid
+  std::vector<Real> V;                 ///< [n_cells] volume, area in 2-D
+  std::vector<GlobalIndex> global_id;  ///< [n_cells] position of the cell in the mesh file, from 0
+  Csr cell_faces;                      ///< [n_owned] faces of the cell, ascending
+  /// [n_owned] cells that share a vertex, itself excluded, sorted by (global_id, shift)
+  Csr cell_neighbours;
+  /// beside cell_neighbours.index: that cell is seen at C[n] + translation[shift]
+  std::vector<std::int8_t> cell_neighbour_shift;
 
   // points
-  std::vector<Vec3> points;               ///< corners of owned and halo cells
-  Csr cell_points;                        ///< [n_cells] corners, in the order of the gmsh format
-  std::vector<Index> vertex;              ///< [points] the same number for points joined by a period
+  std::vector<Vec3> points;   ///< corners of owned and halo cells
+  Csr cell_points;            ///< [n_cells] corners, in the order of the gmsh format
+  std::vector<Index> vertex;  ///< [points] the same number for points joined by a period
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
 
   Halo halo;
-  Real total_volume = 0;                ///< of all ranks
-  std::uint64_t hash = 0;               ///< of the mesh as read; a checkpoint of another mesh is refused
+  Real total_volume = 0;   ///< of all ranks
+  std::uint64_t hash = 0;  ///< of the mesh as read; a checkpoint of another mesh is refused
 
   Index n_boundary() const { return n_faces - n_internal; }
 

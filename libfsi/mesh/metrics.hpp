@@ -1,6 +1,6 @@
 #pragma once
-// Areas, volumes and centroids from corners. One order of operations: the same corners give the same
-// bits on every rank.
+// Areas, volumes and centroids from corners. One order of operations: the same corners give the
+// same bits on every rank.
 
 #include <span>
 
@@ -18,8 +18,8 @@ struct CellMetrics {
   Vec3 centre;  ///< centroid
 };
 
-/// A polygon, flat or not, as the fan of triangles about the mean of its corners: the sum of Sf over
-/// a closed cell vanishes to round-off. Two corners: an edge of a 2-D cell, Sf to its right.
+/// A polygon, flat or not, as the fan of triangles about the mean of its corners: the sum of Sf
+/// over a closed cell vanishes to round-off. Two corners: an edge of a 2-D cell, Sf to its right.
 FaceMetrics face_metrics(std::span<const Vec3> corners);
 
 /// A cell bounded by such fans, as tets from the mean of its corners (2-D: triangles).

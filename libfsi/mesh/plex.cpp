@@ -102,7 +102,8 @@ std::pair<Plex, StarForest> divide(Plex serial, const Parts& parts) {
   PetscPartitioner part = nullptr;
   FSI_PETSC(DMPlexGetPartitioner(serial, &part));
   FSI_PETSC(PetscPartitionerSetType(part, PETSCPARTITIONERSHELL));
-  FSI_PETSC(PetscPartitionerShellSetPartition(part, ranks(), parts.sizes.data(), parts.cells.data()));
+  FSI_PETSC(
+      PetscPartitionerShellSetPartition(part, ranks(), parts.sizes.data(), parts.cells.data()));
   // Cells are neighbours where they share a vertex.
   FSI_PETSC(DMSetBasicAdjacency(serial, PETSC_TRUE, PETSC_TRUE));
   Plex own, overlapped;
@@ -207,7 +208,8 @@ void pull_cells(const CellList& whole, std::span<const Index> wanted, CellList& 
   for (const CellRecord& cell : pull(cell_records(whole), wanted)) {
     mine.types.push_back(cell.type), mine.face_patch.push_back(cell.face_patch);
     const auto n = shape_of(cell.type).corners;
-    mine.corners.index.insert(mine.corners.index.end(), cell.corner.begin(), cell.corner.begin() + n);
+    mine.corners.index.insert(mine.corners.index.end(), cell.corner.begin(),
+                              cell.corner.begin() + n);
     mine.corners.offset.push_back(static_cast<Index>(mine.corners.index.size()));
   }
   const std::vector<Index> points = compress(mine.corners.index);
@@ -229,7 +231,8 @@ void broadcast_common(const CellList& whole, CellList& mine) {
   mine.dim = head.dim, mine.n_global = head.n_global, mine.hash = head.hash;
   mine.periods = whole.periods;
   mine.periods.resize(head.periods);
-  MPI_Bcast(mine.periods.data(), static_cast<int>(sizeof(Vec3) * head.periods), MPI_BYTE, 0, comm());
+  MPI_Bcast(mine.periods.data(), static_cast<int>(sizeof(Vec3) * head.periods), MPI_BYTE, 0,
+            comm());
   std::string names;
   if (rank() == 0) {
     for (const std::string& name : whole.patches) names += name + '\n';

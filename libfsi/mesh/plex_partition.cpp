@@ -42,7 +42,8 @@ PetscErrorCode partition(PetscPartitioner part, PetscInt n_parts, PetscInt n, Pe
   MPI_Allreduce(MPI_IN_PLACE, &holders, 1, MPI_INT, MPI_SUM, PetscObjectComm((PetscObject)part));
   PetscCheck(holders <= 1, PETSC_COMM_SELF, PETSC_ERR_SUP, "the graph must lie on one rank");
   const std::vector<idx_t> parts = divide(n_parts, n, start, adjacency);
-  PetscCheck(parts.size() == static_cast<std::size_t>(n), PETSC_COMM_SELF, PETSC_ERR_LIB, "METIS failed");
+  PetscCheck(parts.size() == static_cast<std::size_t>(n), PETSC_COMM_SELF, PETSC_ERR_LIB,
+             "METIS failed");
   for (const idx_t p : parts) PetscCall(PetscSectionAddDof(sizes, p, 1));
   PetscCall(PetscSectionSetUp(sizes));
   std::vector<PetscInt> order(parts.size());
@@ -61,7 +62,8 @@ PetscErrorCode create_metis(PetscPartitioner part) noexcept {
 }
 
 /// Cells that share a face, in the form of a CSR matrix.
-void graph_of(const CellList& whole, std::vector<PetscInt>& start, std::vector<PetscInt>& adjacency) {
+void graph_of(const CellList& whole, std::vector<PetscInt>& start,
+              std::vector<PetscInt>& adjacency) {
   const std::vector<Index> mate = match_faces(whole);
   start.assign(1, 0);
   for (Index c = 0; c < whole.n_cells(); ++c) {
@@ -85,7 +87,8 @@ Parts partition_cells(const CellList& whole, const std::string& partitioner) {
   FSI_PETSC(PetscPartitionerSetType(part, partitioner.c_str()));
   FSI_PETSC(PetscSectionCreate(comm(), &sizes));
   FSI_PETSC(PetscPartitionerPartition(part, ranks(), static_cast<PetscInt>(start.size()) - 1,
-                                      start.data(), adjacency.data(), nullptr, nullptr, sizes, &cells));
+                                      start.data(), adjacency.data(), nullptr, nullptr, sizes,
+                                      &cells));
   Parts parts;
   if (rank() == 0) {
     parts.sizes.resize(static_cast<std::size_t>(ranks()));

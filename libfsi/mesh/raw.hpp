@@ -18,8 +18,8 @@ struct RawMesh {
   /// A boundary element and its physical name; -1 fills corners it does not have.
   struct Side {
     std::array<Index, max_face_corners> corner{-1, -1, -1, -1};
-    Index name = -1;        ///< in `names`; -1: none
-    std::int64_t tag = 0;   ///< number in the file
+    Index name = -1;       ///< in `names`; -1: none
+    std::int64_t tag = 0;  ///< number in the file
   };
   /// Nodes that $Periodic of a file joins, on an entity of dimension `dim`: (node, master node).
   struct Link {
@@ -36,7 +36,7 @@ struct RawMesh {
   std::vector<std::int32_t> entities;    ///< [cells] the geometric entity a cell belongs to
   std::vector<std::int64_t> tags;        ///< [cells] number in the file
   std::vector<Side> sides;
-  std::vector<std::string> names;        ///< physical names of the boundary
+  std::vector<std::string> names;  ///< physical names of the boundary
   std::vector<Link> links;
 
   Index n_cells() const { return static_cast<Index>(types.size()); }

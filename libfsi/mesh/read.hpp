@@ -10,8 +10,9 @@ namespace fsi {
 
 /// What to read and how to divide it.
 struct MeshOptions {
-  std::string file;                   ///< gmsh 2.2 or 4.x, ascii or binary
-  std::vector<std::string> periodic;  ///< pairs of physical names joined by translation: a, b[, c, d ...]
+  std::string file;  ///< gmsh 2.2 or 4.x, ascii or binary
+  std::vector<std::string>
+      periodic;  ///< pairs of physical names joined by translation: a, b[, c, d ...]
   std::string partitioner = "metis";  ///< or ptscotch, simple
 };
 
@@ -22,9 +23,9 @@ Mesh read_mesh(const MeshOptions& options);
 /// Collective. What a user should know of a mesh before trusting a run on it.
 struct Quality {
   Real non_orthogonality_max = 0, non_orthogonality_mean = 0;  ///< degrees between d and Sf
-  Real skewness_max = 0;         ///< |face centre - crossing of PN with the face| / |d|
+  Real skewness_max = 0;  ///< |face centre - crossing of PN with the face| / |d|
   Real volume_min = 0, volume_max = 0;
-  Real closure_max = 0;          ///< max over cells of |sum Sf| / sum |Sf|
+  Real closure_max = 0;  ///< max over cells of |sum Sf| / sum |Sf|
 };
 Quality quality(const Mesh& mesh);
 

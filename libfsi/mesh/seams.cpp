@@ -60,8 +60,8 @@ std::vector<Index> nodes_of(const RawMesh& raw, const std::string& name) {
   const auto found = std::ranges::find(raw.names, name);
   if (found == raw.names.end()) {
     const std::string near = nearest(name, raw.names);
-    throw Error(Kind::input, raw.file + ": periodic patch \"" + name + "\" unknown; mesh has: " +
-                                 text_of(raw.names) +
+    throw Error(Kind::input, raw.file + ": periodic patch \"" + name +
+                                 "\" unknown; mesh has: " + text_of(raw.names) +
                                  (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   const auto number = static_cast<Index>(found - raw.names.begin());
@@ -90,7 +90,8 @@ Real extent(const RawMesh& raw, const std::vector<Index>& nodes) {
 }
 
 /// Each node of a with the node of b at its image.
-Pairs pair_by_translation(const RawMesh& raw, const std::string& name_a, const std::string& name_b) {
+Pairs pair_by_translation(const RawMesh& raw, const std::string& name_a,
+                          const std::string& name_b) {
   const std::vector<Index> a = nodes_of(raw, name_a), b = nodes_of(raw, name_b);
   const std::string who = raw.file + ": periodic pair \"" + name_a + "\", \"" + name_b + "\": ";
   require(a.size() == b.size(), who + std::to_string(a.size()) + " nodes against " +
@@ -156,7 +157,8 @@ void join(const RawMesh& raw, const Pairs& pairs, const std::string& who, bool m
   const Vec3 step = step_of(raw, pairs);
   require(norm(step) > 0, who + "the two sides lie on each other");
   for (const auto& [a, b] : pairs) {
-    if (norm(raw.points[b] - raw.points[a] - step) <= 1e2 * pairing_tolerance * norm(step)) continue;
+    if (norm(raw.points[b] - raw.points[a] - step) <= 1e2 * pairing_tolerance * norm(step))
+      continue;
     refuse(who + "the node at " + text_of(raw.points[b]) + " is not the image of " +
            text_of(raw.points[a]) + " by the translation " + text_of(step) +
            "; only translations are known");
@@ -192,8 +194,8 @@ Seams join_seams(RawMesh& raw, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i + 1 < names.size(); i += 2) {
     require(names[i] != names[i + 1], "periodic pair \"" + names[i] + "\" with itself");
     join(raw, pair_by_translation(raw, names[i], names[i + 1]),
-         raw.file + ": periodic pair \"" + names[i] + "\", \"" + names[i + 1] + "\": ", true, classes,
-         seams.periods);
+         raw.file + ": periodic pair \"" + names[i] + "\", \"" + names[i + 1] + "\": ", true,
+         classes, seams.periods);
   }
   seams.vertex.resize(n), seams.offset.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -219,7 +221,8 @@ void check_periods(const CellList& list, const std::string& file) {
   std::vector<std::pair<Index, Offset>> seen;
   for (Index c = 0; c < list.n_cells(); ++c) {
     const auto corners = list.corners[c];
-    if (std::ranges::none_of(corners, [&](Index p) { return on_seam[list.vertex[p]] != 0; })) continue;
+    if (std::ranges::none_of(corners, [&](Index p) { return on_seam[list.vertex[p]] != 0; }))
+      continue;
     seen.assign(1, {c, Offset{}});
     for (const Index p : corners) {
       for (const Index cell : touching[list.vertex[p]]) {

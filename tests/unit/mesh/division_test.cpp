@@ -1,0 +1,167 @@
+// A divided mesh has, bit for bit, the cells, faces and neighbours of the whole one.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tuple>
+
+#include "tests/unit/mesh/block.hpp"
+
+namespace fsi::test {
+namespace {
+
+const std::vector<std::string> sides{"left", "right", "bottom", "top", "back", "front"};
+
+/// (owner, neighbour or -1 - patch, shift, corners): what identifies a face on any rank.
+using FaceKey = std::tuple<GlobalIndex, GlobalIndex, Index, std::vector<Real>>;
+
+FaceKey key_of(const Mesh& mesh, Index f) {
+  std::vector<Real> corners;
+  for (const Index p : mesh.face_points[f]) {
+    for (int k = 0; k < 3; ++k) corners.push_back(mesh.points[p][k]);
+  }
+  GlobalIndex beyond = -1;
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    if (f >= mesh.patches[i].begin && f < mesh.patches[i].end) beyond = -1 - static_cast<int>(i);
+  }
+  if (f < mesh.n_internal) beyond = mesh.global_id[mesh.neighbour[f]];
+  const Index shift = f < mesh.n_internal ? mesh.shift[f] : 0;
+  return {mesh.global_id[mesh.owner[f]], beyond, shift, corners};
+}
+
+using Seen = std::vector<std::pair<GlobalIndex, int>>;
+
+Seen neighbours_of(const Mesh& mesh, Index c) {
+  Seen seen;
+  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
+    seen.emplace_back(mesh.global_id[mesh.cell_neighbours.index[i]], mesh.cell_neighbour_shift[i]);
+  }
+  return seen;
+}
+
+void expect_same_cells(const Mesh& part, const Mesh& all) {
+  for (Index c = 0; c < part.n_cells; ++c) {
+    const auto id = static_cast<Index>(part.global_id[c]);
+    ASSERT_EQ(all.global_id[id], id);
+    EXPECT_EQ(part.V[c], all.V[id]);
+    EXPECT_EQ(part.C[c], all.C[id]);
+    if (c + 1 < part.n_cells && c + 1 != part.n_owned) {
+      EXPECT_LT(part.global_id[c], part.global_id[c + 1]);
+    }
+    if (c < part.n_owned) {
+      EXPECT_EQ(neighbours_of(part, c), neighbours_of(all, id));
+      EXPECT_EQ(part.cell_faces[c].size(), all.cell_faces[id].size());
+    }
+  }
+  const auto owned = static_cast<GlobalIndex>(part.n_owned);
+  EXPECT_EQ(global_sum(owned), all.n_global);
+}
+
+void expect_same_faces(const Mesh& part, const Mesh& all) {
+  std::map<FaceKey, Index> index;
+  for (Index f = 0; f < all.n_faces; ++f) index[key_of(all, f)] = f;
+  ASSERT_EQ(index.size(), static_cast<std::size_t>(all.n_faces));
+  Index previous = -1;
+  GlobalIndex mine = 0;
+  for (Index f = 0; f < part.n_faces; ++f) {
+    const auto found = index.find(key_of(part, f));
+    ASSERT_NE(found, index.end());
+    EXPECT_LT(previous, found->second) << "faces are in the order of the whole mesh";
+    previous = found->second;
+    EXPECT_EQ(part.Sf[f], all.Sf[found->second]);
+    EXPECT_EQ(part.Cf[f], all.Cf[found->second]);
+    EXPECT_EQ(part.d[f], all.d[found->second]);
+    EXPECT_TRUE(part.owner[f] < part.n_owned ||
+                (f < part.n_internal && part.neighbour[f] < part.n_owned));
+    if (part.owner[f] < part.n_owned) ++mine;
+  }
+  EXPECT_EQ(global_sum(mine), all.n_faces);
+}
+
+void compare(const Block& block, int axes, const std::string& partitioner = "metis") {
+  SCOPED_TRACE(testing::Message() << "type " << static_cast<int>(block.type) << ", links "
+                                  << block.links << ", named axes " << axes << ", " << partitioner);
+  const std::vector<std::string> periodic(sides.begin(), sides.begin() + 2 * axes);
+  const TextFile file(BlockText(block).text());
+  const Mesh part = divided(file.path(), periodic, partitioner);
+  const Mesh all = whole(file.path(), periodic);
+  EXPECT_EQ(part.translation, all.translation);
+  EXPECT_EQ(part.hash, all.hash);
+  EXPECT_EQ(part.patches.size(), all.patches.size());
+  expect_same_cells(part, all);
+  expect_same_faces(part, all);
+}
+
+Block block_of(CellType type, int links = 0) {
+  Block block;
+  block.type = type, block.links = links;
+  block.n = {4, 3, 5};
+  block.moved = block.dim() == 2 ? warp_plane : warp;
+  return block;
+}
+
+constexpr CellType all_types[] = {CellType::triangle, CellType::quad,  CellType::tet,
+                                  CellType::hex,      CellType::prism, CellType::pyramid};
+
+TEST(Division, EveryCellType) {
+  for (const CellType type : all_types) compare(block_of(type), 0);
+}
+
+TEST(Division, OneToThreePeriods) {
+  for (const CellType type : all_types) {
+    for (int axes = 1; axes <= shape_of(type).dim; ++axes) compare(block_of(type), axes);
+  }
+}
+
+TEST(Division, PeriodsOfTheFile) {
+  for (const CellType type : all_types) {
+    for (int links = 1; links <= shape_of(type).dim; ++links) compare(block_of(type, links), 0);
+  }
+  compare(block_of(CellType::hex, 2), 3);  // the file's, and the same and one more by name
+}
+
+TEST(Division, OtherPartitioners) {
+  compare(block_of(CellType::tet), 1, "ptscotch");
+  compare(block_of(CellType::hex), 1, "simple");
+}
+
+TEST(Division, FewerCellsThanRanks) {
+  Block block;
+  block.n = {1, 1, 1};
+  compare(block, 0);
+  block.type = CellType::quad, block.n = {2, 1, 1};
+  compare(block, 0);
+}
+
+TEST(Halo, UpdateBringsTheOwnersValues) {
+  const TextFile file(BlockText(block_of(CellType::hex)).text());
+  const Mesh mesh = divided(file.path(), {"left", "right"});
+  for (const int width : {1, 3, 6, 3}) {
+    std::vector<Real> values(static_cast<std::size_t>(width) * mesh.n_cells, -1);
+    const auto expected = [&](Index c, int k) { return 0.1 * mesh.global_id[c] + 1000 * k; };
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      for (int k = 0; k < width; ++k) values[width * c + k] = expected(c, k);
+    }
+    mesh.halo.update(values.data(), width);
+    for (Index c = 0; c < mesh.n_cells; ++c) {
+      for (int k = 0; k < width; ++k) EXPECT_EQ(values[width * c + k], expected(c, k));
+    }
+  }
+}
+
+TEST(Halo, AddToOwnerSumsTheCopies) {
+  const TextFile file(BlockText(block_of(CellType::tet)).text());
+  const Mesh mesh = divided(file.path(), {});
+  std::vector<Real> values(2 * static_cast<std::size_t>(mesh.n_cells), 1);
+  mesh.halo.add_to_owner(values.data(), 2);
+  GlobalIndex copies = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    EXPECT_EQ(values[2 * c], values[2 * c + 1]);
+    copies += static_cast<GlobalIndex>(values[2 * c]) - 1;
+  }
+  for (Index c = mesh.n_owned; c < mesh.n_cells; ++c) EXPECT_EQ(values[2 * c], 1);
+  EXPECT_EQ(global_sum(copies), global_sum(GlobalIndex{mesh.n_cells - mesh.n_owned}));
+}
+
+}  // namespace
+}  // namespace fsi::test
