@@ -173,6 +173,13 @@ def check_text(path, text):
             yield line_of(text, match.start()), f"{what}: {match.group(0)}"
 
 
+def check_keys(text, references):
+    """Works cited as [Name99] are listed in doc/references.md."""
+    for match in re.finditer(r"\[([A-Z][A-Za-z]+\d\d)\]", text):
+        if f"| {match.group(1)} |" not in references:
+            yield line_of(text, match.start()), f"{match.group(0)} is not in doc/references.md"
+
+
 def check_sources(path, read, files):
     """The explicit source list of a module: sorted, and all that lies there."""
     folder = os.path.dirname(path)
@@ -210,11 +217,12 @@ def violations(root):
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             return file.read()
 
+    references = read("doc/references.md") if "doc/references.md" in known else ""
     for path in files:
         if os.path.splitext(path)[1] not in TEXT:
             continue
         text = read(path)
-        found = list(check_text(path, text))
+        found = list(check_text(path, text)) + list(check_keys(text, references))
         if path.endswith((".cpp", ".hpp")):
             found += check_cpp(path, text, known.__contains__)
         if module_of(path) in FLOORS and path.endswith("/CMakeLists.txt"):

@@ -119,6 +119,12 @@ class Layers(unittest.TestCase):
     def test_left_open(self):
         self.flags({"doc/a.md": "TO" "DO: all\n"}, "left open")
 
+    def test_works_cited(self):
+        code = HEAD + "// by midpoints  [Bach" "50] (2)\n"
+        listed = {"doc/references.md": "| Bach" "50 | J. S. Bach |\n"}
+        self.flags({"libfsi/core/a.hpp": code}, "is not in doc/references.md")
+        self.passes({"libfsi/core/a.hpp": code, **listed})
+
     def test_source_lists(self):
         listed = "target_sources(fsi PRIVATE a.cpp b.cpp)\n"
         self.passes({"libfsi/core/CMakeLists.txt": listed, "libfsi/core/a.cpp": "",
