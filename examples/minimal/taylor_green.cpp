@@ -20,13 +20,15 @@ fsi::Ending decay() {
   options.check_unknown();
 
   // 2. mesh: no boundary is left, so there are no conditions
-  const fsi::Mesh mesh = fsi::read_mesh({.file = file, .periodic = {"left", "right", "bottom", "top"}});
+  const fsi::Mesh mesh =
+      fsi::read_mesh({.file = file, .periodic = {"left", "right", "bottom", "top"}});
 
   // 3. solver and initial velocity    u = (sin kx cos ky, -cos kx sin ky) F   [TaylorGreen37]
   constexpr Real k = 2 * std::numbers::pi;
   const auto exact = [&](const Vec3& x, Real t) {
     const Real F = std::exp(-2 * mu * k * k * t);
-    return F * Vec3{std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0};
+    return F *
+           Vec3{std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0};
   };
   fsi::Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu}, {});
   solver.start([&](const Vec3& x) { return exact(x, 0); });
@@ -46,8 +48,8 @@ fsi::Ending decay() {
   const Real error = std::sqrt(squares.total() / mesh.total_volume);
   if (fsi::rank() == 0)
     std::printf("%lld cells, %lld steps: L2 error of the velocity %.3e\n",
-                static_cast<long long>(mesh.n_global),
-                static_cast<long long>(solver.state().step), error);
+                static_cast<long long>(mesh.n_global), static_cast<long long>(solver.state().step),
+                error);
   fsi::require(error < 0.02, "the error is larger than this mesh should give: refine it");
   return fsi::Ending::complete;
 }

@@ -174,7 +174,7 @@ def check_text(path, text):
 
 
 def check_keys(text, references):
-    """Works cited as [Name99] are listed in doc/references.md."""
+    """Works cited by a key (a name and two digits in brackets) are listed in doc/references.md."""
     for match in re.finditer(r"\[([A-Z][A-Za-z]+\d\d)\]", text):
         if f"| {match.group(1)} |" not in references:
             yield line_of(text, match.start()), f"{match.group(0)} is not in doc/references.md"
