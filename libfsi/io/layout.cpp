@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/io/collect.hpp"
 
 namespace fsi::io {
 namespace {
@@ -38,31 +39,6 @@ std::vector<Key> keys_of_faces(const Mesh& mesh, Index first) {
     for (Index f = mesh.patches[p].begin; f < mesh.patches[p].end; ++f)
       add(static_cast<std::int64_t>(p), mesh.global_id[mesh.owner[f]], 0);
   return keys;
-}
-
-/// Rank 0: the items of every rank, [ranks][count * width]; `mine` are those of this rank.
-template <class T>
-std::vector<std::vector<T>> collect(const std::vector<T>& mine) {
-  const int bytes = static_cast<int>(sizeof(T));
-  std::vector<std::vector<T>> all;
-  std::int64_t n = static_cast<std::int64_t>(mine.size());
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks()));
-  MPI_Gather(&n, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, 0, comm());
-  MPI_Datatype item = MPI_DATATYPE_NULL;
-  MPI_Type_contiguous(bytes, MPI_BYTE, &item);
-  MPI_Type_commit(&item);
-  if (rank() != 0) {
-    MPI_Send(mine.data(), static_cast<int>(n), item, 0, tag, comm());
-  } else {
-    all.push_back(mine);
-    for (int r = 1; r < ranks(); ++r) {
-      auto& other = all.emplace_back(static_cast<std::size_t>(counts[static_cast<std::size_t>(r)]));
-      MPI_Recv(other.data(), static_cast<int>(other.size()), item, r, tag, comm(),
-               MPI_STATUS_IGNORE);
-    }
-  }
-  MPI_Type_free(&item);
-  return all;
 }
 
 }  // namespace

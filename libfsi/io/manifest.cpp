@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/io/file.hpp"
 
 namespace fsi::io {
 namespace {
@@ -22,7 +22,7 @@ std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    result += c == '\n' ? ' ' : c;
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return result + "\"";
 }
@@ -38,18 +38,11 @@ void make_directory(const std::string& directory) {
 }
 
 void write_text(const std::string& file, const std::string& text) {
-  bool good = true;
-  if (rank() == 0) {
-    const std::string temporary = file + ".tmp";
-    std::ofstream stream(temporary, std::ios::trunc);
-    stream << text << std::flush;
-    good = stream.good();
-    stream.close();
-    std::error_code code;
-    if (good) std::filesystem::rename(temporary, file, code);
-    good = good && !code;
-  }
-  if (!all_of_ranks(good)) throw Error(Kind::io, "file \"" + file + "\" cannot be written");
+  std::string reason;
+  if (rank() == 0) reason = replace_file(file, {std::as_bytes(std::span(text))}, Durable::no);
+  reason = broadcast(reason);
+  if (!reason.empty())
+    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + reason);
 }
 
 std::string json(const Summary& s) {

@@ -3,42 +3,41 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/io/file.hpp"
 
 namespace fsi::io {
 
 Table::Table(const std::string& file, std::vector<std::string> columns)
-    : file_(file), columns_(std::move(columns)) {
-  open(std::ios::trunc);
-  for (std::size_t i = 0; i < columns_.size(); ++i) stream_ << (i > 0 ? "," : "") << columns_[i];
-  stream_ << std::endl;
-}
+    : Table(file, std::move(columns), -std::numeric_limits<Real>::infinity()) {}
 
 Table::Table(const std::string& file, std::vector<std::string> columns, Real resume_at)
     : file_(file), columns_(std::move(columns)) {
-  std::string kept;
+  std::string head, reason;
+  for (const std::string& column : columns_) head += (head.empty() ? "" : ",") + column;
+  std::string kept = head + "\n", found = head;
   if (rank() == 0) {
+    // A line without an end was cut off: getline reaches the end of the file in it.
     std::ifstream old(file);
-    std::string line;
-    if (std::getline(old, line)) kept = line + "\n";
-    while (std::getline(old, line))
-      if (!old.eof() && std::strtod(line.c_str(), nullptr) <= resume_at * (1 + 1e-12))
-        kept += line + "\n";
+    if (std::isfinite(resume_at) && std::getline(old, found)) {
+      for (std::string line; std::getline(old, line);)
+        if (!old.eof() && std::strtod(line.c_str(), nullptr) <= resume_at * (1 + 1e-12))
+          kept += line + "\n";
+    }
+    if (found == head) {
+      reason = replace_file(file, {std::as_bytes(std::span(kept))}, Durable::no);
+      stream_.open(file, std::ios::app);
+      if (reason.empty() && !stream_) reason = "it cannot be opened";
+    }
   }
-  open(std::ios::trunc);
-  if (kept.empty()) {
-    for (const std::string& column : columns_) kept += column + ',';
-    kept.back() = '\n';
-  }
-  stream_ << kept << std::flush;
-}
-
-void Table::open(std::ios::openmode mode) {
-  if (rank() == 0) stream_.open(file_, mode);
-  if (!all_of_ranks(rank() != 0 || stream_.good()))
-    throw Error(Kind::io, "file \"" + file_ + "\" cannot be written");
+  require(all_of_ranks(found == head),
+          "file \"" + file + "\" has other columns than this run writes; move it away");
+  reason = broadcast(reason);
+  if (!reason.empty())
+    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + reason);
 }
 
 void Table::row(std::span<const Real> values) {
@@ -56,7 +55,7 @@ void Table::row(std::span<const Real> values) {
     throw Error(Kind::numerics, "column \"" + culprit + "\" of \"" + file_ + "\" is not finite");
   if (rank() == 0) stream_ << line << std::endl;
   if (!all_of_ranks(rank() != 0 || stream_.good()))
-    throw Error(Kind::io, "file \"" + file_ + "\" cannot be written (disk full?)");
+    throw Error(Kind::io, "file \"" + file_ + "\" could not be written: is the disk full?");
 }
 
 }  // namespace fsi::io

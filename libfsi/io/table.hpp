@@ -14,8 +14,9 @@ namespace fsi::io {
 /// Invariant: the file holds a header and whole rows of finite numbers.
 class Table {
  public:
-  /// Collective. Creates the file, or with resume_at keeps the rows whose first column (the time)
-  /// is not beyond it. Errors: Error{io} when it cannot be written.
+  /// Collective. Creates the file, or with resume_at keeps the whole rows whose first column (the
+  /// time) is not beyond it. Errors: Error{io} when it cannot be written; Error{input} when a file to
+  /// be resumed has other columns.
   Table(const std::string& file, std::vector<std::string> columns);
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 
@@ -24,7 +25,6 @@ class Table {
   void row(std::span<const Real> values);
 
  private:
-  void open(std::ios::openmode mode);
   std::string file_;
   std::vector<std::string> columns_;
   std::ofstream stream_;

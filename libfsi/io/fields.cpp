@@ -1,0 +1,145 @@
+#include "libfsi/io/fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/io/file.hpp"
+#include "libfsi/io/hdf5.hpp"
+#include "libfsi/io/vtk_mesh.hpp"
+
+namespace fsi::io {
+namespace {
+
+constexpr const char* mesh_file = "fields_mesh.hdf";
+constexpr const char* series_file = "/fields.hdf.series";
+constexpr const char* entry_text = "{\"name\": \"%63[^\"]\", \"time\": %lf}";
+
+/// What makes a group one that VTK reads.
+void head(Hdf5Image& image) {
+  image.group("/VTKHDF");
+  image.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
+  image.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+}
+
+/// xx xy xz yy yz zz -> xx yy zz xy yz xz, as ParaView names the components.
+void order_as_paraview(std::vector<Real>& values) {
+  for (std::size_t i = 0; i + 6 <= values.size(); i += 6) {
+    const std::array v{values[i],     values[i + 3], values[i + 5],
+                       values[i + 1], values[i + 4], values[i + 2]};
+    std::copy(v.begin(), v.end(), values.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+/// Collective. Rank 0's reason becomes everybody's Error{io}.
+void agree(const std::string& file, const std::string& reason) {
+  const std::string shared = broadcast(reason);
+  if (!shared.empty())
+    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + shared);
+}
+
+std::string put(const std::string& path, Hdf5Image& image) {
+  const Bytes bytes = image.bytes();
+  return bytes.empty() ? "HDF5 could not make it" : replace_file(path, {bytes}, Durable::no);
+}
+
+}  // namespace
+
+FieldWriter::FieldWriter(std::string directory, const Mesh& mesh, Real resume_at)
+    : directory_(std::move(directory)), mesh_(mesh), cells_(mesh, On::cells) {
+  take_up(resume_at);
+  write_mesh();
+}
+
+void FieldWriter::write_mesh() const {
+  const VtkMesh mesh = vtk_mesh(mesh_);
+  const std::string path = directory_ + "/" + mesh_file;
+  std::string reason;
+  if (rank() == 0) {
+    Hdf5Image image(8 * (mesh.points.size() + mesh.connectivity.size() + mesh.offsets.size()) +
+                    mesh.types.size());
+    const auto count = [](std::size_t n) { return std::array{static_cast<std::int64_t>(n)}; };
+    head(image);
+    image.dataset("/VTKHDF/NumberOfPoints", count(mesh.points.size() / 3));
+    image.dataset("/VTKHDF/NumberOfCells", count(mesh.types.size()));
+    image.dataset("/VTKHDF/NumberOfConnectivityIds", count(mesh.connectivity.size()));
+    image.dataset("/VTKHDF/Points", mesh.points, 3);
+    image.dataset("/VTKHDF/Connectivity", mesh.connectivity);
+    image.dataset("/VTKHDF/Offsets", mesh.offsets);
+    image.dataset("/VTKHDF/Types", mesh.types);
+    reason = put(path, image);
+  }
+  agree(path, reason);
+}
+
+void FieldWriter::take_up(Real resume_at) {
+  if (rank() != 0) return;
+  std::ifstream stream(directory_ + series_file);
+  for (std::string line; std::getline(stream, line);) {
+    std::array<char, 64> name{};
+    Real t = 0;
+    const std::size_t at = line.find('{');
+    // NOLINTNEXTLINE: the format is the constant above
+    if (at == std::string::npos || std::sscanf(line.c_str() + at, entry_text, name.data(), &t) != 2)
+      continue;
+    std::error_code code;
+    if (t <= resume_at * (1 + 1e-12))
+      entries_.push_back({name.data(), t});
+    else
+      std::filesystem::remove(directory_ + "/" + name.data(), code);
+  }
+}
+
+std::string FieldWriter::series() const {
+  std::string text = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n";
+  for (const Entry& entry : entries_) {
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(), "    {\"name\": \"%s\", \"time\": %.17g}%s\n",
+                  entry.file.c_str(), entry.t, &entry == &entries_.back() ? "" : ",");
+    text += line.data();
+  }
+  return text + "  ]\n}\n";
+}
+
+void FieldWriter::write(Real t, std::span<const NamedField> fields) {
+  std::size_t width = 0;
+  for (const NamedField& f : fields) {
+    require_finite(f.name, f.values, f.width, On::cells, mesh_);
+    width += static_cast<std::size_t>(f.width);
+  }
+  std::optional<Hdf5Image> image;
+  if (rank() == 0) {
+    image.emplace(8 * width * static_cast<std::size_t>(mesh_.n_global));
+    head(*image);
+    for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
+                             "Connectivity", "Offsets", "Types"})
+      image->link(std::string("/VTKHDF/") + name, mesh_file);
+    image->group("/VTKHDF/CellData");
+  }
+  for (const NamedField& f : fields) {
+    std::vector<Real> all = cells_.gather(f.values, f.width);
+    if (f.width == 6) order_as_paraview(all);
+    if (image) image->dataset("/VTKHDF/CellData/" + f.name, all, f.width);
+  }
+  std::string path, reason;
+  if (rank() == 0) {
+    std::array<char, 48> name{};
+    std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size());
+    path = directory_ + "/" + name.data();
+    reason = put(path, *image);
+    if (reason.empty()) {
+      entries_.push_back({name.data(), t});
+      const std::string text = series();
+      reason =
+          replace_file(directory_ + series_file, {std::as_bytes(std::span(text))}, Durable::no);
+    }
+  }
+  agree(broadcast(path), reason);
+}
+
+}  // namespace fsi::io
