@@ -86,9 +86,12 @@ void Hdf5Image::write(const std::string& path, Hdf5Id type, std::span<const std:
                      H5Sclose);
   ok_ = space.ok();
   if (!ok_) return;
-  const Handle set(
-      H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose);
+  // No time of writing: the same values give the same bytes.
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  ok_ = creation.ok() && H5Pset_obj_track_times(creation, 0) >= 0;
+  if (!ok_) return;
+  const Handle set(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                   H5Dclose);
   ok_ = set.ok();
   if (ok_ && dims[0] > 0) ok_ = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
 }
