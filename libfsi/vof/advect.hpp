@@ -23,10 +23,12 @@ class Advect {
  public:
   explicit Advect(const Mesh& mesh);
 
-  /// Collective. alpha, interface, u: owned and halo; L: velocity gradient on owned interface cells.
-  /// phi must be divergence-free. On return alpha is set, halo included; the planes are out of date.
-  Advected operator()(CellField<Real>& alpha, const Interface& interface, const FaceField<Real>& phi,
-                      const CellField<Vec3>& u, const CellField<Tensor>& L, Real dt);
+  /// Collective. alpha, interface, u: owned and halo; L: velocity gradient on owned interface
+  /// cells. phi must be divergence-free. On return alpha is set, halo included; the planes are out
+  /// of date.
+  Advected operator()(CellField<Real>& alpha, const Interface& interface,
+                      const FaceField<Real>& phi, const CellField<Vec3>& u,
+                      const CellField<Tensor>& L, Real dt);
 
  private:
   void set_speed(const Interface& interface, const CellField<Vec3>& u, const CellField<Tensor>& L);
@@ -39,11 +41,11 @@ class Advect {
   void pass_on(Index c, Real excess, bool solid, const FaceField<Real>& phi, Real dt);
 
   const Mesh& mesh_;
-  CellField<Real> speed_;      // of the plane along its normal
-  FaceField<Real> volume_;     // of solid through the face in this step; valid on faces_
-  CellField<Real> received_;   // volume that redistribution moves into a cell
-  std::vector<Index> faces_;   // faces of cells with alpha > 0
-  std::vector<Index> cells_;   // owned cells beside them
+  CellField<Real> speed_;     // of the plane along its normal
+  FaceField<Real> volume_;    // of solid through the face in this step; valid on faces_
+  CellField<Real> received_;  // volume that redistribution moves into a cell
+  std::vector<Index> faces_;  // faces of cells with alpha > 0
+  std::vector<Index> cells_;  // owned cells beside them
   std::vector<std::int32_t> face_stamp_, cell_stamp_;
   std::int32_t calls_ = 0;
   std::vector<Index> between_ranks_;  // internal faces with a halo cell on one side

@@ -6,7 +6,8 @@ namespace fsi::vof {
 
 void gather(geometry::Polygon& face, const Mesh& mesh, Index f, Index c) {
   face.n = mesh.face_points.offset[f + 1] - mesh.face_points.offset[f];
-  for (int i = 0; i < face.n; ++i) face.x[static_cast<std::size_t>(i)] = mesh.corner(f, i, c) - mesh.C[c];
+  for (int i = 0; i < face.n; ++i)
+    face.x[static_cast<std::size_t>(i)] = mesh.corner(f, i, c) - mesh.C[c];
 }
 
 void gather(geometry::Cell& cell, const Mesh& mesh, Index c) {

@@ -11,13 +11,15 @@ namespace fsi::vof {
 /// Cells with epsilon < alpha < 1 - epsilon hold a plane.
 inline constexpr Real epsilon = 1e-8;
 
-/// Planes of the interface cells. Dense over the cells, so that a neighbour's plane is one look away.
+/// Planes of the interface cells. Dense over the cells, so that a neighbour's plane is one look
+/// away.
 struct Interface {
   explicit Interface(const Mesh& mesh) : normal(mesh), centre(mesh) {}
 
   std::vector<Index> cells;  ///< owned interface cells, ascending
-  CellField<Vec3> normal;    ///< unit, out of the solid (towards alpha = 0); zero where no plane. Halo set
-  CellField<Vec3> centre;    ///< centroid of the plane in the cell, relative to C. Halo set
+  CellField<Vec3>
+      normal;  ///< unit, out of the solid (towards alpha = 0); zero where no plane. Halo set
+  CellField<Vec3> centre;  ///< centroid of the plane in the cell, relative to C. Halo set
 };
 
 inline bool is_interface(Real alpha) { return alpha > epsilon && alpha < 1 - epsilon; }

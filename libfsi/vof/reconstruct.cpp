@@ -55,9 +55,9 @@ Reconstruct::Reconstruct(const Mesh& mesh)
 
 int Reconstruct::operator()(Interface& interface, const CellField<Real>& alpha) {
   find_cells(interface, alpha);
-  first_normals(interface, alpha);
+  const bool guessed = first_normals(interface, alpha);
   cut(interface, alpha);
-  constexpr int most = 5;
+  const int most = guessed ? 1 : 5;
   constexpr Real tolerance = 1e-6;
   for (int i = 1; i <= most; ++i) {
     distance(interface);
@@ -69,7 +69,8 @@ int Reconstruct::operator()(Interface& interface, const CellField<Real>& alpha) 
 }
 
 void Reconstruct::find_cells(Interface& interface, const CellField<Real>& alpha) {
-  // Cells that held a plane but hold none now are cleared; the halo is set by the exchange in cut().
+  // Cells that held a plane but hold none now are cleared; the halo is set by the exchange in
+  // cut().
   for (const Index c : interface.cells)
     if (!is_interface(alpha[c])) interface.normal[c] = interface.centre[c] = {};
   interface.cells.clear();
@@ -92,13 +93,18 @@ void Reconstruct::find_cells(Interface& interface, const CellField<Real>& alpha)
       for (const Index n : halo_neighbours_[c - mesh_.n_owned]) list(n);
 }
 
-void Reconstruct::first_normals(Interface& interface, const CellField<Real>& alpha) {
+bool Reconstruct::first_normals(Interface& interface, const CellField<Real>& alpha) {
+  GlobalIndex guessed = 0;
   for (const Index c : interface.cells) {
-    if (norm2(interface.normal[c]) > 0) continue;
+    if (norm2(interface.normal[c]) > 0) {
+      ++guessed;
+      continue;
+    }
     const Vec3 g = least_squares_gradient(alpha, mesh_, c);
     const Real size = norm(g);
     interface.normal[c] = size > 0 ? -1 / size * g : Vec3{1, 0, 0};
   }
+  return global_sum(guessed) > 0;
 }
 
 void Reconstruct::cut(Interface& interface, const CellField<Real>& alpha) {
