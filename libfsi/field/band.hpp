@@ -1,0 +1,35 @@
+#pragma once
+// The cells and faces around a marked set: where the work on a small body is done.
+
+#include <cstdint>
+#include <vector>
+
+#include "libfsi/field/field.hpp"
+
+namespace fsi {
+
+/// Owned cells of a set, and those that share a vertex with one; the faces of both. Rebuilt each
+/// step from lists that keep their memory.
+class Band {
+ public:
+  explicit Band(const Mesh& mesh);
+
+  /// The set {c : q[c] >= threshold}. q: owned and halo.
+  void rebuild(const CellField<Real>& q, Real threshold);
+
+  const std::vector<Index>& core() const { return core_; }  ///< owned cells of the set
+  const std::vector<Index>& cells() const {
+    return cells_;
+  }  ///< owned cells of the set and around it
+  /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
+  const std::vector<Index>& faces() const { return faces_; }
+
+ private:
+  const Mesh& mesh_;
+  Csr halo_neighbours_;  // owned cells around every halo cell
+  std::vector<Index> between_ranks_, core_, cells_, faces_;
+  std::vector<std::int32_t> cell_stamp_, face_stamp_;
+  std::int32_t calls_ = 0;
+};
+
+}  // namespace fsi
