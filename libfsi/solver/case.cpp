@@ -64,6 +64,7 @@ Case read_case(Options& options, const std::string& driver) {
   Case result;
   result.mesh = read_mesh_options(options);
   result.physics = read_physics(options);
+  result.solid = read_solid(options, result.physics);
   result.time = read_time(options);
   result.output = read_output(options, driver);
   require(options.help() || !result.mesh.file.empty(),
@@ -88,6 +89,7 @@ Limit stable_dt(const Solver& solver, const TimeSetup& time) {
   Limit limit{solver.advective_dt(time.courant), "advective"};
   // A start from rest gives no advective limit: a hundredth of the run is then small enough.
   limit = tighter(limit, {time.end / 100, "start"});
+  limit = tighter(limit, {solver.elastic_dt(), "elastic"});
   if (time.step_max > 0) limit = tighter(limit, {time.step_max, "step_max"});
   if (time.step > 0) limit = {time.step, "fixed"};
   return limit;

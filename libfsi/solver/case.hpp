@@ -1,6 +1,7 @@
 #pragma once
 // The options all drivers share, resolved into plain structs.
 
+#include <optional>
 #include <string>
 
 #include "libfsi/core/options.hpp"
@@ -25,13 +26,23 @@ struct OutputSetup {
   Real wall_seconds_max = 0;  ///< 0: no limit
 };
 
+/// The undeformed solid; no shape: no solid.
+struct SolidSetup {
+  std::optional<shapes::Shape> shape;
+  std::string name = "none";
+};
+
 /// A case as the user described it.
 struct Case {
   MeshOptions mesh;
   Physics physics;
+  SolidSetup solid;
   TimeSetup time;
   OutputSetup output;
 };
+
+/// Reads the solid's options; sets mu_s and G. Errors: Error{input}.
+SolidSetup read_solid(Options& options, Physics& physics);
 
 /// Reads and checks the common options. Errors: Error{input}.
 Case read_case(Options& options, const std::string& driver);

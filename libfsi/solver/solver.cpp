@@ -41,6 +41,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f),
+      vof_phase_(profile_.add("vof")),
+      solid_phase_(profile_.add("solid")),
       momentum_phase_(profile_.add("momentum")),
       flux_phase_(profile_.add("flux")),
       pressure_phase_(profile_.add("pressure")) {
@@ -56,7 +58,6 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  balance_.fill(0);
   const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_, balance_, mu_, 1, physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
   projection_.project(state_.phi, q_, grad_q_, 1e-12 * mesh_.total_volume);
@@ -67,12 +68,28 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   }
 }
 
+void Solver::put_solid(const shapes::Shape& shape) {
+  body_.emplace(mesh_, shape, physics_.G);
+  require(body_->filled.volume > 0,
+          "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
+  require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
+                                           std::to_string(-body_->filled.clearance) +
+                                           ": move it or make it smaller");
+  mix_viscosity();
+}
+
 void Solver::step(Real dt) {
-  update_gradients();      // grad p^n, L^n
-  predict_momentum(dt);    // du/dt + div(u u) = ...          [Matsumiya25] (12)
-  predict_flux(dt);        // phi* from u*                    [Rhie83]
-  project(dt);             // div u = 0                       [Matsumiya25] (1)
-  hold_mean_velocity(dt);  // S                               [Matsumiya25] (12)
+  update_gradients();  // grad p^n, L^n
+  if (body_) {
+    advance_interface(dt);  // d alpha/dt + div(alpha u) = 0           [Matsumiya25] (5)
+    transport_elastic(dt);  // dBt/dt + div(u Bt) = L.Bt + Bt.L^T      [Matsumiya25] (10)
+    mix_viscosity();        // mu = alpha mu_s + (1 - alpha) mu_f      [Matsumiya25] (3)
+    set_elastic_force();    // f = div(alpha^(1/2) G dev Bt)           [Matsumiya25] (11)
+  }
+  predict_momentum(dt);    // du/dt + div(u u) = ...                  [Matsumiya25] (12)
+  predict_flux(dt);        // phi* from u*                            [Rhie83]
+  project(dt);             // div u = 0                               [Matsumiya25] (1)
+  hold_mean_velocity(dt);  // S                                       [Matsumiya25] (12)
   check_finite();
   state_.t += dt;
   ++state_.step;
@@ -82,7 +99,34 @@ void Solver::update_gradients() {
   const Profile::Phase phase(profile_, momentum_phase_);
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  if (weights_.skewed || weights_.non_orthogonal) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  if (weights_.skewed || weights_.non_orthogonal || mu_varies()) {
+    gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  } else if (body_) {
+    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
+    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->interface.cells);
+  }
+}
+
+void Solver::advance_interface(Real dt) {
+  const Profile::Phase phase(profile_, vof_phase_);
+  body_->advected = body_->advect(body_->alpha, body_->interface, state_.phi, state_.u, L_, dt);
+  body_->reconstruct(body_->interface, body_->alpha);
+}
+
+void Solver::transport_elastic(Real dt) {
+  const Profile::Phase phase(profile_, solid_phase_);
+  body_->band.rebuild(body_->alpha, solid::alpha_min);
+  body_->kinematics.transport(body_->Bt, body_->alpha, state_.phi, L_, u_stencil_, body_->band, dt);
+}
+
+void Solver::mix_viscosity() {
+  if (!mu_varies()) return;
+  flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
+}
+
+void Solver::set_elastic_force() {
+  const Profile::Phase phase(profile_, solid_phase_);
+  body_->law.apply(force_, balance_, body_->Bt, body_->alpha, weights_, u_stencil_, body_->band);
 }
 
 void Solver::predict_momentum(Real dt) {
@@ -90,7 +134,7 @@ void Solver::predict_momentum(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations = momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi,
-                                                  mu_, false, {force_, body}, dt);
+                                                  mu_, mu_varies(), {force_, body}, dt);
 }
 
 void Solver::predict_flux(Real dt) {
@@ -136,6 +180,12 @@ Real Solver::advective_dt(Real courant) const {
   }
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::elastic_dt() const {
+  if (!body_) return std::numeric_limits<Real>::max();
+  return global_min(solid::elastic_dt(body_->Bt, body_->alpha, physics_.G, physics_.rho, mesh_,
+                                      body_->band.core()));
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

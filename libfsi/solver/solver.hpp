@@ -14,6 +14,7 @@
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/solver/body.hpp"
 
 namespace fsi {
 
@@ -35,11 +36,10 @@ struct FlowSetup {
 
 /// The unknowns at time t.
 struct State {
-  explicit State(const Mesh& mesh) : u(mesh), p(mesh), alpha(mesh), phi(mesh) {}
+  explicit State(const Mesh& mesh) : u(mesh), p(mesh), phi(mesh) {}
   CellField<Vec3> u;
   CellField<Real> p;
-  CellField<Real> alpha;  ///< volume fraction of the solid
-  FaceField<Real> phi;    ///< volume flux, divergence-free to the solver's tolerance
+  FaceField<Real> phi;  ///< volume flux, divergence-free to the solver's tolerance
   Real t = 0;
   std::int64_t step = 0;
 };
@@ -60,15 +60,25 @@ class Solver {
   /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free.
   void start(const std::function<Vec3(const Vec3&)>& u_0);
 
+  /// Collective. Puts a solid of that undeformed shape into the fluid; before the first step.
+  /// Errors: Error{input} where it is empty or leaves the mesh.
+  void put_solid(const shapes::Shape& shape);
+
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
   void step(Real dt);
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
+  /// Collective. Elastic limit of the solid; the largest number without one.
+  Real elastic_dt() const;
 
   const Mesh& mesh() const { return mesh_; }
   State& state() { return state_; }
   const State& state() const { return state_; }
+  /// The solid; empty in a scene without one.
+  const std::optional<Body>& body() const { return body_; }
+  std::optional<Body>& body() { return body_; }
+  const Physics& physics() const { return physics_; }
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
@@ -81,11 +91,16 @@ class Solver {
 
  private:
   void update_gradients();
+  void advance_interface(Real dt);
+  void transport_elastic(Real dt);
+  void mix_viscosity();
+  void set_elastic_force();
   void predict_momentum(Real dt);
   void predict_flux(Real dt);
   void project(Real dt);
   void hold_mean_velocity(Real dt);
   void check_finite() const;
+  bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
 
   const Mesh& mesh_;
   Physics physics_;
@@ -102,10 +117,11 @@ class Solver {
   flow::Projection projection_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
+  std::optional<Body> body_;
   Real cells_norm_ = 0;  // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;
-  int momentum_phase_, flux_phase_, pressure_phase_;
+  int vof_phase_, solid_phase_, momentum_phase_, flux_phase_, pressure_phase_;
 };
 
 }  // namespace fsi
