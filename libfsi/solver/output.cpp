@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "libfsi/analysis/measures.hpp"
+#include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
 
@@ -24,6 +26,16 @@ const std::vector<std::string> flow_columns{"t",
                                             "elastic_energy",
                                             "pressure_iterations",
                                             "wall_per_step"};
+
+const std::vector<std::string> solid_columns{
+    "t",  "x",  "y",  "z",     "ux",        "uy",        "uz",        "volume",
+    "nx", "ny", "nz", "angle", "det_B_min", "det_B_max", "min_eig_B", "overshoot"};
+
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
+  CellField<SymTensor> B(mesh, identity());
+  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = solid::B_of(body.Bt[c], body.alpha[c]);
+  return B;
+}
 
 Real kinetic_energy(const Solver& solver, Real rho) {
   const Mesh& mesh = solver.mesh();
@@ -59,6 +71,11 @@ Output::Output(const Case& which, const Options& options, const Solver& solver,
   io::make_directory(which.output.directory);
   io::write_text(which.output.directory + "/run.yaml", options.yaml());
   flow_.emplace(which.output.directory + "/flow.csv", flow_columns);
+  if (solver.body()) {
+    solid_.emplace(which.output.directory + "/solid.csv", solid_columns);
+    volume_0_ = solver.body()->filled.volume;
+    write_solid();
+  }
   io::write_text(which.output.directory + "/summary.json", summary("failed"));
 }
 
@@ -90,6 +107,11 @@ void Output::write_row(const Limit& limit, Real dt) {
   const Real per_step =
       (now - rows_at_) / static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
   const Real rate = flow_patch_.empty() ? 0 : flow_rate(solver_, solver_.mesh().patch(flow_patch_));
+  const std::optional<Body>& body = solver_.body();
+  const Real elastic =
+      body ? analysis::elastic_energy(case_.physics.G, B_field(*body, solver_.mesh()), body->alpha,
+                                      solver_.mesh())
+           : 0;
   const std::array row{s.t,
                        dt,
                        limit.dt,
@@ -99,10 +121,11 @@ void Output::write_row(const Limit& limit, Real dt) {
                        rate,
                        divergence_,
                        kinetic_energy(solver_, case_.physics.rho),
-                       0.0,
+                       elastic,
                        static_cast<Real>(solver_.report().pressure_iterations),
                        per_step};
   flow_->row(row);
+  if (solver_.body()) write_solid();
   rows_at_ = now;
   row_step_ = s.step;
   constexpr Real seconds_between = 1;
@@ -113,14 +136,44 @@ void Output::write_row(const Limit& limit, Real dt) {
   }
 }
 
+void Output::write_solid() {
+  const Body& body = *solver_.body();
+  const State& s = solver_.state();
+  const Mesh& mesh = solver_.mesh();
+  const analysis::Motion m = analysis::motion(tracker_, body.alpha, s.u, mesh);
+  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
+  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, axis_);
+  axis_ = o.n;
+  const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
+  drift_ = m.volume / volume_0_ - 1;
+  const std::array row{s.t,
+                       m.centroid.x,
+                       m.centroid.y,
+                       m.centroid.z,
+                       m.velocity.x,
+                       m.velocity.y,
+                       m.velocity.z,
+                       m.volume,
+                       o.n.x,
+                       o.n.y,
+                       o.n.z,
+                       o.angle,
+                       h.det_min,
+                       h.det_max,
+                       h.eigenvalue_min,
+                       body.advected.overshoot};
+  solid_->row(row);
+}
+
 void Output::write_progress(const Limit& limit, Real dt, Real divergence) const {
   if (rank() != 0) return;
   const State& s = solver_.state();
   const Real eta = watch_.seconds() * (case_.time.end / s.t - 1);
   std::printf(
-      "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  p-its %d  u-its %d  ETA %.0f s\n",
+      "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
+      "%.0f s\n",
       static_cast<long long>(s.step), s.t, dt, limit.name.c_str(),
-      dt / limit.dt * case_.time.courant, divergence, solver_.report().pressure_iterations,
+      dt / limit.dt * case_.time.courant, divergence, drift_, solver_.report().pressure_iterations,
       solver_.report().velocity_iterations, eta);
   std::fflush(stdout);
 }
@@ -135,6 +188,7 @@ std::string Output::summary(const std::string& status) const {
   s.t = solver_.state().t;
   s.wall_seconds = watch_.seconds();
   s.divergence_max = divergence_;
+  s.solid_volume_drift = drift_;
   s.phases = solver_.profile().seconds();
   return io::json(s);
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "libfsi/analysis/motion.hpp"
+#include "libfsi/analysis/orientation.hpp"
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/run.hpp"
 #include "libfsi/io/manifest.hpp"
@@ -36,6 +38,7 @@ class Output {
 
  private:
   void write_row(const Limit& limit, Real dt);
+  void write_solid();
   void write_progress(const Limit& limit, Real dt, Real divergence) const;
   std::string summary(const std::string& status) const;
 
@@ -45,6 +48,10 @@ class Output {
   std::string driver_, flow_patch_;
   Every sample_;
   std::optional<io::Table> flow_;
+  std::optional<io::Table> solid_;
+  analysis::Tracker tracker_;
+  Vec3 axis_;
+  Real volume_0_ = 0, drift_ = 0;
   Stopwatch watch_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0;
   std::int64_t row_step_ = 0;
