@@ -15,8 +15,8 @@ namespace fsi::io {
 class Table {
  public:
   /// Collective. Creates the file, or with resume_at keeps the whole rows whose first column (the
-  /// time) is not beyond it. Errors: Error{io} when it cannot be written; Error{input} when a file to
-  /// be resumed has other columns.
+  /// time) is not beyond it. Errors: Error{io} when it cannot be written; Error{input} when a file
+  /// to be resumed has other columns.
   Table(const std::string& file, std::vector<std::string> columns);
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 
