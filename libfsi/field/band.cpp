@@ -20,6 +20,7 @@ Band::Band(const Mesh& mesh)
 }
 
 void Band::rebuild(const CellField<Real>& q, Real threshold) {
+  last_core_.swap(core_);
   core_.clear(), cells_.clear(), faces_.clear();
   ++calls_;
   const auto list = [&](Index c) {

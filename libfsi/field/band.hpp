@@ -17,17 +17,19 @@ class Band {
   /// The set {c : q[c] >= threshold}. q: owned and halo.
   void rebuild(const CellField<Real>& q, Real threshold);
 
-  const std::vector<Index>& core() const { return core_; }  ///< owned cells of the set
-  const std::vector<Index>& cells() const {
-    return cells_;
-  }  ///< owned cells of the set and around it
+  /// Owned cells of the set.
+  const std::vector<Index>& core() const { return core_; }
+  /// Those of the call before.
+  const std::vector<Index>& last_core() const { return last_core_; }
+  /// Owned cells of the set and around it.
+  const std::vector<Index>& cells() const { return cells_; }
   /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
   const std::vector<Index>& faces() const { return faces_; }
 
  private:
   const Mesh& mesh_;
   Csr halo_neighbours_;  // owned cells around every halo cell
-  std::vector<Index> between_ranks_, core_, cells_, faces_;
+  std::vector<Index> between_ranks_, core_, last_core_, cells_, faces_;
   std::vector<std::int32_t> cell_stamp_, face_stamp_;
   std::int32_t calls_ = 0;
 };

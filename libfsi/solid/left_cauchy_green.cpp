@@ -17,8 +17,6 @@ SymTensor stretch(const Tensor& L, const SymTensor& B) {
   return r;
 }
 
-SymTensor along(const SymGradient& g, const Vec3& d) { return d.x * g.x + d.y * g.y + d.z * g.z; }
-
 }  // namespace
 
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
@@ -68,13 +66,13 @@ void LeftCauchyGreen::rate(const CellField<SymTensor>& Bt, const FaceField<Real>
 void LeftCauchyGreen::transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha,
                                 const FaceField<Real>& phi, const CellField<Tensor>& L,
                                 const GradientStencil& stencil, const Band& band, Real dt) {
-  old_.assign(Bt);
+  for (const Index c : band.core()) old_[c] = Bt[c];
   rate(Bt, phi, L, stencil, band);
   for (const Index c : band.core()) Bt[c] += dt * rate_[c];
   mesh_.halo.update(Bt);
   rate(Bt, phi, L, stencil, band);
   for (const Index c : band.core()) Bt[c] = 0.5 * (old_[c] + Bt[c] + dt * rate_[c]);
-  for (const Index c : band.cells())
+  for (const Index c : band.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};
   mesh_.halo.update(Bt);
 }

@@ -13,6 +13,10 @@ namespace fsi::solid {
 struct SymGradient {
   SymTensor x, y, z;
 };
+/// Change along the vector d.
+inline SymTensor along(const SymGradient& g, const Vec3& d) {
+  return d.x * g.x + d.y * g.y + d.z * g.z;
+}
 
 /// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
 inline constexpr Real alpha_min = 0.1;
@@ -31,9 +35,9 @@ class LeftCauchyGreen {
  public:
   explicit LeftCauchyGreen(const Mesh& mesh);
 
-  /// Collective. Bt: owned and halo, of the start of the step. alpha, band: of its end. L: on the
-  /// cells of the band's core. On return Bt is set on owned cells and halo, zero where
-  /// alpha < alpha_min.
+  /// Collective. Bt: owned and halo, of the start of the step, zero outside the band's last core.
+  /// alpha, band: of its end. L: on the cells of the band's core. On return Bt is set on owned cells
+  /// and halo, zero where alpha < alpha_min.
   void transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const FaceField<Real>& phi,
                  const CellField<Tensor>& L, const GradientStencil& stencil, const Band& band,
                  Real dt);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libfsi/core/eigen.hpp"
+
 namespace fsi::solid {
 
 NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh), grad_(mesh) {}
@@ -30,16 +32,19 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
     }
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
-    const Vec3 t = dot((1 - lambda) * tau_[P] + lambda * tau_[N], mesh_.Sf[f]);
+    const auto between = [lambda](const SymTensor& a, const SymTensor& b) {
+      return (1 - lambda) * a + lambda * b;
+    };
+    const SymGradient grad_f{between(grad_[P].x, grad_[N].x), between(grad_[P].y, grad_[N].y),
+                             between(grad_[P].z, grad_[N].z)};
+    // tau_f = (1 - lambda) tau_P + lambda tau_N + (grad tau)_f . skew
+    SymTensor tau_f = between(tau_[P], tau_[N]);
+    if (weights.skewed) tau_f += along(grad_f, weights.skew[f]);
+    const Vec3 t = dot(tau_f, mesh_.Sf[f]);
     force[P] += (1 / mesh_.V[P]) * t;
     force[N] -= (1 / mesh_.V[N]) * t;
     const Vec3 d = mesh_.d[f], n = d / norm(d);
-    const auto normal_stress = [&](const SymTensor& a) { return dot(n, dot(a, n)); };
-    const SymGradient &g_P = grad_[P], &g_N = grad_[N];
-    const SymTensor slope = d.x * ((1 - lambda) * g_P.x + lambda * g_N.x) +
-                            d.y * ((1 - lambda) * g_P.y + lambda * g_N.y) +
-                            d.z * ((1 - lambda) * g_P.z + lambda * g_N.z);
-    balance[f] = normal_stress(tau_[N] - tau_[P] - slope);
+    balance[f] = dot(n, dot(tau_[N] - tau_[P] - along(grad_f, d), n));
   }
   mesh_.halo.update(force);
 }
@@ -51,8 +56,8 @@ Real elastic_dt(const CellField<SymTensor>& Bt, const CellField<Real>& alpha, Re
   for (const Index c : cells) {
     Real area = 0;
     for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm2(mesh.Sf[f]));
-    const Real h = mesh.V[c] / std::sqrt(area),
-               lambda = std::max(trace(B_of(Bt[c], alpha[c])), 1.0);
+    const Real h = mesh.V[c] / std::sqrt(area);
+    const Real lambda = std::max(std::sqrt(std::max(alpha[c], 0.0)) * eigen(Bt[c]).value[2], 1.0);
     dt = std::min(dt, 0.8 * h * std::sqrt(rho / (G * lambda)));
   }
   return dt;

@@ -11,7 +11,8 @@ class NeoHookean {
   NeoHookean(const Mesh& mesh, Real G);
 
   /// Collective. tau_c = alpha^(1/2) G dev(Bt)                            [Matsumiya25] (11)
-  /// force_c = (1/V) sum_f tau_f . S_f, tau_f linear between cells, the cell's own at boundaries;
+  /// force_c = (1/V) sum_f tau_f . S_f, tau_f linear between cells with skewness correction, the
+  /// cell's own at boundaries;
   /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
   /// stress. Zero outside the band of this and of the last call. force: owned and halo.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const CellField<SymTensor>& Bt,
@@ -29,7 +30,7 @@ class NeoHookean {
 };
 
 /// Largest step that resolves the elastic shear wave: 0.8 h (rho / (G lambda))^(1/2) over the
-/// cells, h = V / max |Sf|, lambda = tr B an upper bound of the largest eigenvalue of B.
+/// cells, h = V / max |Sf|, lambda = alpha times the largest eigenvalue of B, at least 1.
 /// [Matsumiya25] (15) This rank's cells only.
 Real elastic_dt(const CellField<SymTensor>& Bt, const CellField<Real>& alpha, Real G, Real rho,
                 const Mesh& mesh, std::span<const Index> cells);

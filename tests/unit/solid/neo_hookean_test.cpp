@@ -1,0 +1,180 @@
+// Elastic stress, its force and the balance of the face flux.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solid/neo_hookean.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real G = 3;
+
+/// Everything the law reads and writes on one mesh.
+struct Solid {
+  explicit Solid(const test::BoxFile& box)
+      : mesh(test::read_box(box)),
+        weights(mesh),
+        stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
+        alpha(mesh, 1),
+        Bt(mesh, identity()),
+        force(mesh),
+        balance(mesh),
+        band(mesh),
+        law(mesh, G) {}
+
+  void apply() {
+    band.rebuild(alpha, solid::alpha_min);
+    law.apply(force, balance, Bt, alpha, weights, stencil, band);
+  }
+  /// Sum of force times volume over all ranks.
+  Vec3 total() const {
+    Sum x, y, z;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      x.add(mesh.V[c] * force[c].x), y.add(mesh.V[c] * force[c].y), z.add(mesh.V[c] * force[c].z);
+    }
+    return {x.total(), y.total(), z.total()};
+  }
+  /// Owned cells without a boundary face whose neighbours have none either.
+  std::vector<Index> inner() const {
+    CellField<Real> rim(mesh);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) rim[mesh.owner[f]] = 1;
+    mesh.halo.update(rim);
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      Real sum = rim[c];
+      for (const Index n : mesh.cell_neighbours[c]) sum += rim[n];
+      if (sum == 0) cells.push_back(c);
+    }
+    return cells;
+  }
+
+  Mesh mesh;
+  FaceWeights weights;
+  GradientStencil stencil;
+  CellField<Real> alpha;
+  CellField<SymTensor> Bt;
+  CellField<Vec3> force;
+  FaceField<Real> balance;
+  Band band;
+  solid::NeoHookean law;
+};
+
+/// Boxes of every kind of cell, the simplices moved off the lattice.
+std::vector<test::BoxFile> boxes() {
+  const auto moved = [](const Vec3& x) {
+    const Real s = 0.03 * std::sin(7 * x.x + 3 * x.y) * std::cos(5 * x.y + 2 * x.z);
+    return Vec3{x.x + s, x.y - s, x.z == 0 ? 0 : x.z + s};
+  };
+  return {{.n = {10, 10, 0}},
+          {.n = {10, 10, 0}, .simplex = true, .moved = moved},
+          {.n = {6, 6, 6}},
+          {.n = {6, 6, 6}, .simplex = true, .moved = moved}};
+}
+
+TEST(NeoHookean, TheUndeformedSolidPullsNowhere) {
+  for (const test::BoxFile& box : boxes()) {
+    Solid s(box);
+    for (Index c = 0; c < s.mesh.n_cells; ++c)
+      s.alpha[c] = 0.5 + 0.5 * std::sin(10 * s.mesh.C[c].x * s.mesh.C[c].y);
+    solid::set_undeformed(s.Bt, s.alpha, s.mesh);
+    s.apply();
+    for (Index c = 0; c < s.mesh.n_cells; ++c) ASSERT_LE(norm(s.force[c]), 1e-13);
+    for (Index f = 0; f < s.mesh.n_faces; ++f) ASSERT_LE(std::abs(s.balance[f]), 1e-13);
+  }
+}
+
+// A traceless linear Bt where alpha = 1: tau = G Bt, div tau is the same everywhere.
+TEST(NeoHookean, LinearStressIsExact) {
+  for (const test::BoxFile& box : boxes()) {
+    Solid s(box);
+    const bool space = s.mesh.dim == 3;
+    for (Index c = 0; c < s.mesh.n_cells; ++c) {
+      const Vec3 x = s.mesh.C[c];
+      s.Bt[c] = {2 * x.x + x.y, 3 * x.y - x.x, space ? x.z : 0, x.y, space ? 2 * x.x : 0, 0};
+      s.Bt[c].zz = -s.Bt[c].xx - s.Bt[c].yy;
+    }
+    s.apply();
+    // dx tau_xx + dy tau_xy + dz tau_xz = 2 + 3 + 1, dx tau_xy + dy tau_yy = -1 + 1,
+    // dx tau_xz + dy tau_yz + dz tau_zz = 0
+    const Vec3 exact = G * Vec3{space ? 6.0 : 5.0, 0, 0};
+    for (const Index c : s.inner()) {
+      ASSERT_LE(norm(s.force[c] - exact), 1e-11) << "dim " << s.mesh.dim;
+      for (const Index f : s.mesh.cell_faces[c]) ASSERT_LE(std::abs(s.balance[f]), 1e-12);
+    }
+  }
+}
+
+// Action = reaction: the force of a solid that touches no wall sums to zero.
+TEST(NeoHookean, TheForceOfAClosedSolidSumsToZero) {
+  for (const test::BoxFile& box : boxes()) {
+    Solid s(box);
+    for (Index c = 0; c < s.mesh.n_cells; ++c) {
+      const Vec3 x = s.mesh.C[c] - Vec3{0.5, 0.5, s.mesh.dim == 3 ? 0.5 : 0};
+      s.alpha[c] = norm(x) < 0.25 ? 1 : 0;
+      s.Bt[c] = s.alpha[c] * SymTensor{2, std::sin(20 * x.x), 0, 1 + x.y, x.z, 0.5};
+    }
+    s.apply();
+    Real scale = 0;
+    for (Index c = 0; c < s.mesh.n_owned; ++c) scale = std::max(scale, norm(s.force[c]));
+    EXPECT_GT(global_max(scale), 1);
+    EXPECT_LE(norm(s.total()), 1e-12);
+  }
+}
+
+// An alternating normal stress has no averaged gradient: the balance is the whole difference.
+TEST(NeoHookean, TheBalanceSeesAnAlternatingStress) {
+  Solid s({.n = {8, 8, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  const auto sign = [&](Index c) {
+    return std::lround(8 * s.mesh.C[c].x - 0.5) % 2 == 0 ? 1.0 : -1.0;
+  };
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.Bt[c] = sign(c) * SymTensor{1, 0, 0, -1, 0, 0};
+  s.apply();
+  for (Index f = 0; f < s.mesh.n_internal; ++f) {
+    const Index P = s.mesh.owner[f];
+    const bool across = std::abs(s.mesh.Sf[f].x) > 0;
+    EXPECT_NEAR(s.balance[f], across ? -2 * G * sign(P) : 0, 1e-12);
+  }
+  for (Index c = 0; c < s.mesh.n_cells; ++c) EXPECT_LE(norm(s.force[c]), 1e-12);
+}
+
+// Where the solid has left, nothing of its force stays.
+TEST(NeoHookean, LeavesNothingBehind) {
+  Solid s({.n = {8, 8, 0}});
+  for (Index c = 0; c < s.mesh.n_cells; ++c)
+    s.Bt[c] = SymTensor{s.mesh.C[c].x * s.mesh.C[c].y, 1, 0, 2, 0, 1};
+  s.apply();
+  s.alpha.fill(0);
+  s.Bt.fill({});
+  s.apply();
+  for (Index c = 0; c < s.mesh.n_cells; ++c) ASSERT_EQ(norm(s.force[c]), 0);
+  for (Index f = 0; f < s.mesh.n_faces; ++f) ASSERT_EQ(s.balance[f], 0);
+}
+
+// dt = 0.8 h (rho / (G lambda))^(1/2); the largest eigenvalue of a sheared B.
+TEST(NeoHookean, StepResolvesTheElasticWave) {
+  Solid s({.n = {10, 10, 0}});
+  s.apply();
+  const Real rho = 2, h = 0.1;
+  const auto dt = [&] {
+    return global_min(solid::elastic_dt(s.Bt, s.alpha, G, rho, s.mesh, s.band.core()));
+  };
+  EXPECT_NEAR(dt(), 0.8 * h * std::sqrt(rho / G), 1e-14);
+  s.Bt.fill({2, 1, 0, 1, 0, 1});  // g = 1: lambda = (3 + sqrt 5) / 2
+  EXPECT_NEAR(dt(), 0.8 * h * std::sqrt(rho / G / (1.5 + std::sqrt(1.25))), 1e-14);
+  EXPECT_EQ(solid::elastic_dt(s.Bt, s.alpha, 0, rho, s.mesh, s.band.core()),
+            std::numeric_limits<Real>::max());
+}
+
+TEST(NeoHookean, TheDeformationOfACell) {
+  EXPECT_EQ(solid::B_of(SymTensor{1, 0.5, 0, 2, 0, 1}, 0.25), (SymTensor{2, 1, 0, 4, 0, 2}));
+  EXPECT_EQ(solid::B_of(SymTensor{}, 0.05), identity());
+}
+
+}  // namespace
+}  // namespace fsi
