@@ -36,8 +36,8 @@ class LeftCauchyGreen {
   explicit LeftCauchyGreen(const Mesh& mesh);
 
   /// Collective. Bt: owned and halo, of the start of the step, zero outside the band's last core.
-  /// alpha, band: of its end. L: on the cells of the band's core. On return Bt is set on owned cells
-  /// and halo, zero where alpha < alpha_min.
+  /// alpha, band: of its end. L: on the cells of the band's core. On return Bt is set on owned
+  /// cells and halo, zero where alpha < alpha_min.
   void transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const FaceField<Real>& phi,
                  const CellField<Tensor>& L, const GradientStencil& stencil, const Band& band,
                  Real dt);
