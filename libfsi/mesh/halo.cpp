@@ -24,7 +24,10 @@ struct Halo::Exchange {
     PetscSFDestroy(&sf);  // NOLINT: a destructor has nobody to tell
   }
 
+  /// One Real is MPI_DOUBLE itself: PETSc passes a type derived of a single one on to
+  /// MPI_Reduce_local, which sums only types of MPI's own.
   MPI_Datatype unit(int width) {
+    if (width == 1) return MPI_DOUBLE;
     const auto w = static_cast<std::size_t>(width);
     if (units.size() <= w) units.resize(w + 1, MPI_DATATYPE_NULL);
     if (units[w] == MPI_DATATYPE_NULL) {

@@ -21,7 +21,7 @@ struct LinearSystem::Handles {
   KSP solver = nullptr;
   Vec x = nullptr, b = nullptr;
   std::vector<PetscScalar> values;
-  std::vector<std::pair<Index, Index>> rows;  // (face, row's cell) of every off-diagonal entry
+  std::vector<Index> face;  // of every off-diagonal entry
 
   explicit Handles(const Mesh& m) : mesh(m) {}
   Handles(const Handles&) = delete;
@@ -54,6 +54,18 @@ std::vector<PetscInt> global_rows(const Mesh& mesh) {
   for (Index c = 0; c < mesh.n_owned; ++c) number[c] = static_cast<Real>(before + c);
   mesh.halo.update(number.data(), 1);
   return {number.begin(), number.end()};
+}
+
+void set_properties(Mat matrix, bool null_space) {
+  FSI_PETSC(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  FSI_PETSC(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  FSI_PETSC(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+  if (null_space) {
+    MatNullSpace constant = nullptr;
+    FSI_PETSC(MatNullSpaceCreate(comm(), PETSC_TRUE, 0, nullptr, &constant));
+    FSI_PETSC(MatSetNullSpace(matrix, constant));
+    FSI_PETSC(MatNullSpaceDestroy(&constant));
+  }
 }
 
 void set_defaults(const std::string& prefix, Method method, KSP solver) {
@@ -102,7 +114,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
          {std::pair{mesh.owner[f], mesh.neighbour[f]}, std::pair{mesh.neighbour[f], mesh.owner[f]}})
       if (c < mesh.n_owned) {
         i.push_back(row[c]), j.push_back(row[other]);
-        h.rows.emplace_back(f, c);
+        h.face.push_back(f);
       }
   h.values.resize(i.size());
 
@@ -111,15 +123,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(MatSetType(h.matrix, MATAIJ));
   FSI_PETSC(
       MatSetPreallocationCOO(h.matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
-  FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  FSI_PETSC(MatSetOption(h.matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-  FSI_PETSC(MatSetOption(h.matrix, MAT_SPD, PETSC_TRUE));
-  if (h.null_space) {
-    MatNullSpace constant = nullptr;
-    FSI_PETSC(MatNullSpaceCreate(comm(), PETSC_TRUE, 0, nullptr, &constant));
-    FSI_PETSC(MatSetNullSpace(h.matrix, constant));
-    FSI_PETSC(MatNullSpaceDestroy(&constant));
-  }
+  set_properties(h.matrix, h.null_space);
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.x));
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.b));
   FSI_PETSC(KSPCreate(comm(), &h.solver));
@@ -141,12 +145,23 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   // A pinned singular system with a right-hand side of zero sum has the solution that vanishes in
   // the pinned cell: summing all rows leaves a_00 x_0 = 0.
   if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
-  for (std::size_t e = 0; e < h.rows.size(); ++e)
-    h.values[n + e] = matrix.off_diagonal[h.rows[e].first];
+  for (std::size_t e = 0; e < h.face.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.face[e]];
   FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
 }
 
-Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute) {
+void LinearSystem::assemble_constant(const FaceMatrix& matrix) {
+  assemble(matrix);
+  Handles& h = *handles_;
+  Mat lean = nullptr;  // a copy leaves behind the map from entries to their places
+  FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
+  FSI_PETSC(MatDestroy(&h.matrix));
+  h.matrix = lean;
+  set_properties(h.matrix, h.null_space);
+  FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
+  h.values = {}, h.face = {};
+}
+
+Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, Real loosened) {
   Handles& h = *handles_;
   FSI_PETSC(VecPlaceArray(h.x, x.data()));
   FSI_PETSC(VecPlaceArray(h.b, b.data()));
@@ -158,8 +173,10 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute) 
   PetscReal rtol = 0, divergence = 0;
   PetscInt its = 0, most = 0;
   FSI_PETSC(KSPGetTolerances(h.solver, &rtol, nullptr, &divergence, &most));
-  FSI_PETSC(KSPSetTolerances(h.solver, rtol, std::max(absolute, 1e-300), divergence, most));
+  FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5), std::max(absolute, 1e-300),
+                             divergence, most));
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
+  FSI_PETSC(KSPSetTolerances(h.solver, rtol, PETSC_DEFAULT, divergence, most));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   Solve result;
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));

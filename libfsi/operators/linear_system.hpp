@@ -45,11 +45,13 @@ class LinearSystem {
 
   /// Collective. Sets the values; the preconditioner is renewed at the next solve.
   void assemble(const FaceMatrix& matrix);
+  /// Collective. The same, once for all: frees what another assembly would need.
+  void assemble_constant(const FaceMatrix& matrix);
   /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
   /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
-  /// max(relative_tolerance |b|, absolute). Errors: Error{numerics} with the system's name and
-  /// PETSc's reason when it does not converge.
-  Solve solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0);
+  /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.
+  /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
+  Solve solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0, Real loosened = 1);
 
  private:
   struct Handles;

@@ -152,15 +152,17 @@ TEST(Halo, UpdateBringsTheOwnersValues) {
 TEST(Halo, AddToOwnerSumsTheCopies) {
   const TextFile file(BlockText(block_of(CellType::tet)).text());
   const Mesh mesh = divided(file.path(), {});
-  std::vector<Real> values(2 * static_cast<std::size_t>(mesh.n_cells), 1);
-  mesh.halo.add_to_owner(values.data(), 2);
-  GlobalIndex copies = 0;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    EXPECT_EQ(values[2 * c], values[2 * c + 1]);
-    copies += static_cast<GlobalIndex>(values[2 * c]) - 1;
+  for (const int width : {1, 2, 6}) {
+    std::vector<Real> values(width * static_cast<std::size_t>(mesh.n_cells), 1);
+    mesh.halo.add_to_owner(values.data(), width);
+    GlobalIndex copies = 0;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      EXPECT_EQ(values[width * c], values[width * c + width - 1]);
+      copies += static_cast<GlobalIndex>(values[width * c]) - 1;
+    }
+    for (Index c = mesh.n_owned; c < mesh.n_cells; ++c) EXPECT_EQ(values[width * c], 1);
+    EXPECT_EQ(global_sum(copies), global_sum(GlobalIndex{mesh.n_cells - mesh.n_owned}));
   }
-  for (Index c = mesh.n_owned; c < mesh.n_cells; ++c) EXPECT_EQ(values[2 * c], 1);
-  EXPECT_EQ(global_sum(copies), global_sum(GlobalIndex{mesh.n_cells - mesh.n_owned}));
 }
 
 }  // namespace
