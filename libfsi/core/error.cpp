@@ -1,12 +1,28 @@
 #include "libfsi/core/error.hpp"
 
+#include <string_view>
+
 namespace fsi {
 
+std::string petsc_text(int code) {
+  const char* general = nullptr;
+  char* particular = nullptr;
+  // The failure at hand is the one to report.
+  PetscErrorMessage(code, &general, &particular);  // NOLINT: as above
+  const bool said = particular != nullptr && *particular != '\0';
+  std::string text = said ? particular : general != nullptr ? general : "unknown error";
+  while (text.ends_with('\n') || text.ends_with(' ') || text.ends_with('.')) text.pop_back();
+  return text;
+}
+
 void petsc_failed(int code, const char* call, const char* file, int line) {
-  const char* text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);  // NOLINT: the failure at hand is the one to report
-  throw Error(Kind::internal, std::string(file) + ":" + std::to_string(line) + ": " + call +
-                                  " failed: " + (text != nullptr ? text : "unknown error"));
+  const std::string text = petsc_text(code);
+  const bool of_user = std::string_view(call).find("FromOptions") != std::string_view::npos ||
+                       code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR ||
+                       code == PETSC_ERR_USER_INPUT;
+  if (of_user) throw Error(Kind::input, "an option of PETSc is not valid: " + text);
+  throw Error(Kind::internal,
+              std::string(file) + ":" + std::to_string(line) + ": " + call + " failed: " + text);
 }
 
 }  // namespace fsi

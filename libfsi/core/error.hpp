@@ -32,7 +32,11 @@ inline void require(bool ok, const std::string& sentence) {
   if (!ok) throw Error(Kind::input, sentence);
 }
 
-/// Throws Error{internal} that names the failed PETSc call.
+/// PETSc's own words for its latest failure, which returned `code`.
+std::string petsc_text(int code);
+
+/// Throws for a failed PETSc call: Error{input} where a word of the user caused it (no such solver,
+/// not a number), else Error{internal} that names the call.
 [[noreturn]] void petsc_failed(int code, const char* call, const char* file, int line);
 
 }  // namespace fsi

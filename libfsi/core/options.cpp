@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -60,6 +62,10 @@ Real parse(const std::string& name, const std::string& text, const Spec& spec) {
   return value;
 }
 
+std::string with_unit(const Spec& spec) {
+  return spec.help + (spec.unit.empty() ? "" : " [" + spec.unit + "]");
+}
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> items;
   std::stringstream stream(text);
@@ -104,39 +110,85 @@ std::vector<std::string> unread() {
   return list;
 }
 
-/// Options of PETSc itself, which it reads when it needs them: solver prefixes, logging, memory.
+bool has_prefix(const std::string& name, std::initializer_list<const char*> prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const char* prefix) { return name.starts_with(prefix); });
+}
+
+/// Options that PETSc and MPI read as they start or end: logging, memory, debugging.
 bool of_petsc(const std::string& name) {
-  for (const char* prefix : {"p_",
-                             "u_",
-                             "ksp_",
-                             "pc_",
-                             "mat_",
-                             "vec_",
-                             "log_",
-                             "malloc",
-                             "options_",
-                             "petsc",
-                             "use_",
-                             "fp_trap",
-                             "on_error",
-                             "start_in_debugger",
-                             "info",
-                             "citations",
-                             "error_output",
-                             "memory_",
-                             "viewer_",
-                             "skip_petscrc",
-                             "help",
-                             "dm_",
-                             "sf_",
-                             "mumps_",
-                             "history",
-                             "debug_",
-                             "stop_for_debugger",
-                             "display",
-                             "version"})
-    if (name.starts_with(prefix)) return true;
-  return false;
+  return has_prefix(name, {"citations",
+                           "debug",
+                           "device_",
+                           "display",
+                           "error_output",
+                           "fp_trap",
+                           "get_total_flops",
+                           "help",
+                           "history",
+                           "info",
+                           "log_",
+                           "malloc",
+                           "memory_",
+                           "mpi_",
+                           "no_signal",
+                           "objects_",
+                           "on_error",
+                           "options_",
+                           "petsc_",
+                           "saws",
+                           "shared_tmp",
+                           "not_shared_tmp",
+                           "skip_petscrc",
+                           "start_in_debugger",
+                           "stop_for_debugger",
+                           "tmp",
+                           "use_",
+                           "version",
+                           "viewer_",
+                           "x_"});
+}
+
+/// Options that a solver may read later: those of the linear systems (p_, u_) and of what they
+/// hold.
+bool of_solver(const std::string& name) {
+  return has_prefix(name, {"p_", "u_", "ksp_", "pc_", "mat_", "mumps_", "vec_", "dm_", "sf_", "is_",
+                           "dmplex_", "petscpartitioner_", "hypre_"});
+}
+
+/// The option that stands nearest to a name; "" where there is none.
+std::string nearest(const std::string& name, const std::vector<std::string>& valid) {
+  const auto found = std::min_element(
+      valid.begin(), valid.end(),
+      [&](const auto& a, const auto& b) { return distance(name, a) < distance(name, b); });
+  return found == valid.end() ? "" : *found;
+}
+
+/// The options that were given, from whatever source: name and value.
+std::vector<std::pair<std::string, std::string>> all_given() {
+  char* text = nullptr;
+  FSI_PETSC(PetscOptionsGetAll(nullptr, &text));
+  std::istringstream stream(text);
+  FSI_PETSC(PetscFree(text));
+  std::vector<std::pair<std::string, std::string>> list;
+  for (std::string word; stream >> word;) {
+    const bool name =
+        word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if (name)
+      list.emplace_back(word.substr(1), "");
+    else if (!list.empty())
+      list.back().second += (list.back().second.empty() ? "" : " ") + word;
+  }
+  return list;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
 }
 
 }  // namespace
@@ -147,53 +199,68 @@ Options::Options(std::string program, std::string purpose) : program_(std::move(
   help_ = help == PETSC_TRUE;
   if (help_)
     FSI_PETSC(
-        PetscPrintf(comm(), "%s: %s\n\noptions (default):\n", program_.c_str(), purpose.c_str()));
+        PetscPrintf(comm(),
+                    "%s: %s\n\n  %s [CASE.yaml] [-OPTION VALUE ...]\n\n"
+                    "Keys of the file join with _; the command line wins. Solvers take PETSc's "
+                    "options:\n-p_ksp_monitor, -u_ksp_rtol 1e-9, -log_view ...\n\n",
+                    program_.c_str(), purpose.c_str(), program_.c_str()));
 }
 
-const Options::Entry& Options::record(Entry entry) {
+void Options::record(Entry entry) {
+  const auto same = [&](const Entry& other) { return other.name == entry.name; };
+  if (std::any_of(entries_.begin(), entries_.end(), same)) return;
   if (help_)
-    FSI_PETSC(PetscPrintf(comm(), "  -%-28s (%s)\n      %s\n", entry.name.c_str(),
-                          entry.value.c_str(), entry.help.c_str()));
-  return entries_.emplace_back(std::move(entry));
+    FSI_PETSC(PetscPrintf(comm(), "  -%-27s %s\n%30s %s%sdefault %s\n", entry.name.c_str(),
+                          entry.help.c_str(), "", entry.range.c_str(),
+                          entry.range.empty() ? "" : "; ",
+                          entry.fallback.empty() ? "none" : entry.fallback.c_str()));
+  entries_.push_back(std::move(entry));
 }
 
 Real Options::real(const std::string& name, Real fallback, const Spec& spec) {
   const auto text = raw(name);
   const Real value = text ? parse(name, *text, spec) : fallback;
-  record({name, number(value),
-          spec.help + (spec.unit.empty() ? "" : " [" + spec.unit + "]") + "; " + range(spec)});
+  record({name, number(value), number(fallback), with_unit(spec), range(spec)});
   return value;
 }
 
 int Options::integer(const std::string& name, int fallback, const Spec& spec) {
   const auto text = raw(name);
   const Real value = text ? parse(name, *text, spec) : fallback;
-  require(value == std::floor(value) && std::abs(value) < 2e9,
+  require(value == std::floor(value) && std::abs(value) <= std::numeric_limits<int>::max(),
           "option -" + name + ": \"" + text.value_or("") + "\" is not a whole number");
-  record({name, number(value), spec.help + "; whole number, " + range(spec)});
+  record({name, number(value), number(fallback), with_unit(spec), "whole number, " + range(spec)});
   return static_cast<int>(value);
 }
 
 bool Options::flag(const std::string& name, bool fallback, const std::string& help) {
-  const std::string value = choice(name, fallback ? "true" : "false",
-                                   {"true", "false", "1", "0", "yes", "no", "on", "off", ""}, help);
-  return value == "true" || value == "1" || value == "yes" || value == "on" || value.empty();
+  const auto text = raw(name);
+  const auto one_of = [&](std::initializer_list<const char*> words) {
+    return std::find(words.begin(), words.end(), *text) != words.end();
+  };
+  const bool yes = text ? one_of({"", "true", "yes", "on", "1"}) : fallback;
+  require(
+      !text || yes || one_of({"false", "no", "off", "0"}),
+      "option -" + name + ": \"" + text.value_or("") + "\" is not valid; choose from: true, false");
+  record({name, yes ? "true" : "false", fallback ? "true" : "false", help, "true or false"});
+  return yes;
 }
 
 std::string Options::text(const std::string& name, const std::string& fallback,
                           const std::string& help) {
-  const auto given = raw(name);
-  require(!given || !given->empty(), "option -" + name + " needs a value: " + help);
-  record({name, given.value_or(fallback), help});
-  return given.value_or(fallback);
+  const auto text = raw(name);
+  require(!text || !text->empty(), "option -" + name + " needs a value: " + help);
+  record({name, text.value_or(fallback), fallback, help, ""});
+  return text.value_or(fallback);
 }
 
 std::string Options::choice(const std::string& name, const std::string& fallback,
                             const std::vector<std::string>& valid, const std::string& help) {
   const std::string value = raw(name).value_or(fallback);
-  require(std::find(valid.begin(), valid.end(), value) != valid.end(),
-          "option -" + name + ": \"" + value + "\" is not valid; choose from: " + joined(valid));
-  record({name, value, help + "; one of " + joined(valid)});
+  if (std::find(valid.begin(), valid.end(), value) == valid.end())
+    throw Error(Kind::input, "option -" + name + ": \"" + value + "\" is not valid; nearest is " +
+                                 nearest(value, valid) + "; choose from: " + joined(valid));
+  record({name, value, fallback, help, "one of " + joined(valid)});
   return value;
 }
 
@@ -207,17 +274,20 @@ Vec3 Options::vec3(const std::string& name, const Vec3& fallback, const Spec& sp
                                    " numbers; expected three, x,y,z");
     for (int i = 0; i < 3; ++i) value[i] = parse(name, items[static_cast<std::size_t>(i)], spec);
   }
-  record({name, number(value.x) + "," + number(value.y) + "," + number(value.z),
-          spec.help + (spec.unit.empty() ? "" : " [" + spec.unit + "]")});
+  const auto list = [](const Vec3& v) {
+    return number(v.x) + "," + number(v.y) + "," + number(v.z);
+  };
+  record({name, list(value), list(fallback), with_unit(spec), "x,y,z, each " + range(spec)});
   return value;
 }
 
 std::vector<std::string> Options::list(const std::string& name, const std::string& help) {
   const auto text = raw(name);
   const std::vector<std::string> items = text ? split(*text) : std::vector<std::string>{};
+  require(!text || !items.empty(), "option -" + name + " needs a value: " + help);
   for (const std::string& item : items)
     require(!item.empty(), "option -" + name + ": \"" + *text + "\" has an empty item");
-  record({name, text.value_or(""), help});
+  record({name, text.value_or(""), "", help, "a list: a,b,..."});
   return items;
 }
 
@@ -228,26 +298,21 @@ bool Options::given(const std::string& name) const {
 }
 
 void Options::check_unknown() const {
+  std::vector<std::string> valid;
+  for (const Entry& entry : entries_) valid.push_back(entry.name);
   std::string sentence;
   for (const std::string& name : unread()) {
-    if (of_petsc(name)) continue;
-    const auto nearest =
-        std::min_element(entries_.begin(), entries_.end(), [&](const Entry& a, const Entry& b) {
-          return distance(name, a.name) < distance(name, b.name);
-        });
+    if (of_petsc(name) || of_solver(name)) continue;
     sentence += (sentence.empty() ? "unknown option -" : ", -") + name;
-    if (nearest != entries_.end()) sentence += " (nearest is -" + nearest->name + ")";
+    if (!valid.empty()) sentence += " (nearest is -" + nearest(name, valid) + ")";
   }
   require(sentence.empty(), sentence + "; " + program_ + " -help lists all");
 }
 
 void Options::check_unused() const {
-  const std::vector<std::string> names = unread();
   std::string list;
-  for (const std::string& name : names)
-    if (!name.starts_with("log_") && !name.starts_with("malloc") &&
-        !name.starts_with("options_left"))
-      list += (list.empty() ? "-" : ", -") + name;
+  for (const std::string& name : unread())
+    if (!of_petsc(name)) list += (list.empty() ? "-" : ", -") + name;
   require(list.empty(), "option " + list +
                             " was read by nobody: no such solver option, or it does not apply "
                             "to this run");
@@ -256,7 +321,20 @@ void Options::check_unused() const {
 std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
   for (const Entry& entry : entries_)
-    if (!entry.value.empty()) text += entry.name + ": \"" + entry.value + "\"\n";
+    if (!entry.value.empty()) text += entry.name + ": " + quoted(entry.value) + "\n";
+  bool headed = false;
+  for (const auto& [name, value] : all_given()) {
+    const auto same = [&, &key = name](const Entry& entry) { return entry.name == key; };
+    if (std::any_of(entries_.begin(), entries_.end(), same) || name.starts_with("options_file") ||
+        name == "help")
+      continue;
+    if (!headed) text += "# options of PETSc\n";
+    headed = true;
+    text += name + ": " + quoted(value) + "\n";
+  }
+  for (const char* file : {"petscrc", ".petscrc"})
+    if (std::filesystem::exists(file))
+      text += "# with those of the file " + std::string(file) + " in the working directory\n";
   return text;
 }
 

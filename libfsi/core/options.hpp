@@ -50,9 +50,9 @@ class Options {
 
  private:
   struct Entry {
-    std::string name, value, help;
+    std::string name, value, fallback, help, range;
   };
-  const Entry& record(Entry entry);
+  void record(Entry entry);
   std::string program_;
   std::vector<Entry> entries_;
   bool help_ = false;

@@ -8,10 +8,14 @@
 namespace fsi {
 
 int Profile::add(const std::string& name) {
-  PetscClassId class_id = 0;
-  FSI_PETSC(PetscClassIdRegister("fsi", &class_id));
-  PetscLogEvent event = 0;
-  FSI_PETSC(PetscLogEventRegister(("fsi " + name).c_str(), class_id, &event));
+  const std::string title = "fsi " + name;
+  PetscLogEvent event = -1;
+  FSI_PETSC(PetscLogEventGetId(title.c_str(), &event));
+  if (event < 0) {
+    PetscClassId class_id = 0;
+    FSI_PETSC(PetscClassIdRegister("fsi", &class_id));
+    FSI_PETSC(PetscLogEventRegister(title.c_str(), class_id, &event));
+  }
   items_.push_back({name, event, 0});
   return static_cast<int>(items_.size()) - 1;
 }

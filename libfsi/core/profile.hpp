@@ -12,9 +12,11 @@ namespace fsi {
 /// Named phases and the seconds spent in each.
 class Profile {
  public:
-  /// Registers a phase (and a PETSc log event of its name); returns its number.
+  /// Adds a phase, with a PETSc log event "fsi NAME" that all Profiles share; returns its number.
   int add(const std::string& name);
   std::map<std::string, Real> seconds() const;
+  /// PETSc's number of a phase's log event.
+  int event(int number) const { return items_[static_cast<std::size_t>(number)].event; }
 
   /// Time between construction and destruction counts for the phase.
   class Phase {

@@ -5,9 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "libfsi/core/arguments.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
@@ -20,8 +23,6 @@ PetscErrorCode quiet(MPI_Comm, int, const char*, const char*, PetscErrorCode cod
                      const char*, void*) {
   return code;
 }
-
-bool is_yaml(const std::string& name) { return name.ends_with(".yaml") || name.ends_with(".yml"); }
 
 /// Whether every rank comes here within two seconds: then all failed alike and may end in order.
 bool all_ranks_failed(MPI_Comm rim) {
@@ -36,52 +37,89 @@ bool all_ranks_failed(MPI_Comm rim) {
   return false;
 }
 
-int failed(MPI_Comm rim, int code, const char* sentence) {
-  const bool alike = ranks() == 1 || all_ranks_failed(rim);
-  if (!alike || rank() == 0) std::fprintf(stderr, "fsi: error: %s\n", sentence);
-  if (!alike) MPI_Abort(comm(), code);
+/// Says it once where all ranks failed alike; where one did, ends the others.
+int failed(MPI_Comm rim, Kind kind, const char* sentence) {
+  const int code = static_cast<int>(kind);
+  int mine = 0;
+  MPI_Comm_rank(rim, &mine);
+  const bool alike = all_ranks_failed(rim);
+  if (!alike || mine == 0) std::fprintf(stderr, "fsi: error: %s\n", sentence);
+  if (!alike) MPI_Abort(rim, code);
   return code;
 }
 
-void read_yaml(const std::string& file, int* argc, char*** argv) {
-  require(static_cast<bool>(std::ifstream(file)), "options file \"" + file + "\" cannot be opened");
-  const PetscErrorCode code = PetscOptionsInsertFileYAML(comm(), nullptr, file.c_str(), PETSC_TRUE);
-  require(code == 0, "options file \"" + file + "\" is not valid YAML");
-  FSI_PETSC(PetscOptionsInsert(nullptr, argc, argv, nullptr));  // the command line wins
+/// Collective. The text of the options file as rank 0 reads it. Errors: Error{input}.
+std::string text_of(const std::string& file) {
+  int mine = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &mine);
+  std::string text;
+  std::int64_t size = -1;
+  if (mine == 0) {
+    std::ifstream stream(file);
+    std::ostringstream content;
+    if (stream && content << stream.rdbuf()) text = content.str(), size = std::ssize(text);
+  }
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+  require(size >= 0, "options file \"" + file + "\" cannot be opened or is empty");
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, MPI_COMM_WORLD);
+  return text;
+}
+
+/// Gives PETSc its options: petscrc, PETSC_OPTIONS, options file, command line; the last wins.
+void start_petsc(Arguments& arguments) {
+  const std::string fault = fault_of(arguments);
+  require(fault.empty(), fault);
+  if (!arguments.file.empty()) {
+    const std::string twice = repeated_key(text_of(arguments.file));
+    require(twice.empty(), "options file \"" + arguments.file + "\" gives " + twice + " twice");
+  }
+  std::vector<char*> words;
+  for (std::string& word : arguments.words) words.push_back(word.data());
+  int count = static_cast<int>(words.size());
+  words.push_back(nullptr);
+  char** list = words.data();
+  FSI_PETSC(PetscPushErrorHandler(quiet, nullptr));
+  const PetscErrorCode code = PetscInitialize(&count, &list, nullptr, nullptr);
+  // The options are all of it that depends on the user.
+  require(code == 0 || arguments.file.empty(),
+          "options file \"" + arguments.file + "\" is not valid YAML: " + petsc_text(code));
+  require(code == 0, "the options cannot be read: " + petsc_text(code));
+  FSI_PETSC(PetscPopSignalHandler());
+  if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));
+}
+
+int end_petsc(int code) {
+  PetscBool begun = PETSC_FALSE;
+  PetscErrorCode ended = PetscInitialized(&begun);
+  if (begun == PETSC_TRUE) ended = PetscFinalize();
+  return code == 0 && ended != 0 ? static_cast<int>(Kind::internal) : code;
 }
 
 }  // namespace
 
 int run(int argc, char** argv, const std::function<Ending()>& body) {
-  std::string yaml;
-  if (argc > 1 && is_yaml(argv[1])) {
-    yaml = argv[1];
-    argv[1] = argv[0];
-    --argc, ++argv;
-  }
-  if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0) {
-    std::fprintf(stderr, "fsi: error: PETSc or MPI could not be started\n");
-    return static_cast<int>(Kind::internal);
-  }
+  int threads = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
   MPI_Comm rim = MPI_COMM_NULL;
-  MPI_Comm_dup(comm(), &rim);
+  MPI_Comm_dup(MPI_COMM_WORLD, &rim);
+  Arguments arguments = read_arguments(argc, argv);
   int code = 0;
   try {
-    FSI_PETSC(PetscPushErrorHandler(quiet, nullptr));
-    FSI_PETSC(PetscPopSignalHandler());
+    start_petsc(arguments);
     watch_signals();
-    if (!yaml.empty()) read_yaml(yaml, &argc, &argv);
     code = static_cast<int>(body());
   } catch (const Error& error) {
-    code = failed(rim, static_cast<int>(error.kind()), error.what());
+    code = failed(rim, error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    code = failed(rim, static_cast<int>(Kind::internal), "out of memory");
+    code = failed(rim, Kind::internal, "out of memory");
   } catch (const std::exception& error) {
-    code = failed(rim, static_cast<int>(Kind::internal), error.what());
+    code = failed(rim, Kind::internal, error.what());
   }
+  code = end_petsc(code);
   MPI_Comm_free(&rim);
-  const PetscErrorCode finalized = PetscFinalize();
-  return code == 0 && finalized != 0 ? static_cast<int>(Kind::internal) : code;
+  MPI_Finalize();
+  return code;
 }
 
 }  // namespace fsi

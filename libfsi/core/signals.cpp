@@ -1,5 +1,6 @@
 #include "libfsi/core/signals.hpp"
 
+#include <atomic>
 #include <csignal>
 
 #include "libfsi/core/parallel.hpp"
@@ -8,11 +9,13 @@ namespace fsi {
 namespace {
 
 // A handler may touch nothing else; the one variable of the library that outlives a call.
-volatile std::sig_atomic_t pending = 0;
+std::atomic<int> pending = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember(int signal) {
-  const int request = signal == SIGUSR1 ? 1 : 2;
-  if (request > pending) pending = request;
+  const int request = static_cast<int>(signal == SIGUSR1 ? Signal::checkpoint : Signal::end);
+  int before = pending;
+  while (before < request && !pending.compare_exchange_weak(before, request)) continue;
 }
 
 }  // namespace
@@ -24,9 +27,7 @@ void watch_signals() {
 }
 
 Signal pending_signal() {
-  const int mine = pending;
-  pending = 0;
-  return static_cast<Signal>(static_cast<int>(global_max(mine)));
+  return static_cast<Signal>(static_cast<int>(global_max(pending.exchange(0))));
 }
 
 }  // namespace fsi

@@ -1,0 +1,28 @@
+#pragma once
+// The command line and the options file, as the user typed them: what PETSc would take silently.
+
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// A command line as PETSc is to get it.
+struct Arguments {
+  std::vector<std::string>
+      words;          ///< the program first; an options file as -options_file_yaml FILE
+  std::string file;   ///< the options file; "" where there is none
+  bool help = false;  ///< -help was among the words; it is no longer
+};
+
+/// A first argument that ends in .yaml or .yml is the options file.
+Arguments read_arguments(int argc, char** argv);
+
+/// What is wrong with the words: an option given twice, a word that belongs to no option. "" where
+/// nothing is.
+std::string fault_of(const Arguments& arguments);
+
+/// The first option that an options file gives twice (as keys in blocks; nested keys join with _);
+/// "" where none is.
+std::string repeated_key(const std::string& yaml);
+
+}  // namespace fsi

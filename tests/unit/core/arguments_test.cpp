@@ -1,0 +1,42 @@
+#include "libfsi/core/arguments.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fsi {
+namespace {
+
+Arguments read(std::vector<std::string> words) {
+  words.insert(words.begin(), "program");
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  return read_arguments(static_cast<int>(list.size()), list.data());
+}
+
+TEST(Arguments, AnOptionsFileComesFirst) {
+  const Arguments a = read({"case.yaml", "-help", "-a", "1"});
+  EXPECT_EQ(a.file, "case.yaml");
+  EXPECT_TRUE(a.help);
+  EXPECT_EQ(a.words,
+            (std::vector<std::string>{"program", "-options_file_yaml", "case.yaml", "-a", "1"}));
+  EXPECT_EQ(read({"-a", "case.yaml"}).file, "");
+}
+
+TEST(Arguments, EveryWordBelongsToAnOption) {
+  EXPECT_EQ(fault_of(read({"-a", "1", "-flag", "-b", "-2", "--c", "x,y"})), "");
+  EXPECT_NE(fault_of(read({"-a", "1,", "2"})).find("\"2\" belongs to no option"),
+            std::string::npos);
+  EXPECT_NE(fault_of(read({"case.yml", "more.yml"})).find("\"more.yml\""), std::string::npos);
+  EXPECT_NE(fault_of(read({"-a", "1", "-a", "2"})).find("-a is given twice"), std::string::npos);
+}
+
+TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
+  EXPECT_EQ(repeated_key("a: 1\nb:\n  a: 2\n  c: 3\nc: 4\n"), "");
+  EXPECT_EQ(repeated_key("a: 1\nb: 2\na: 3\n"), "a");
+  EXPECT_EQ(repeated_key("solid:\n  shape: torus\n  density: 1\nfluid:\n  density: 1\n"), "");
+  EXPECT_EQ(repeated_key("solid:  # soft\n  shape: torus\n\nsolid_shape: disk\n"), "solid_shape");
+  EXPECT_EQ(repeated_key("a:\n  b:\n    c: 1\n  d: 2\na:\n  b:\n    c: 1\n"), "a_b_c");
+  EXPECT_EQ(repeated_key("mesh: {a: 1, b: 2}\n# mesh: 1\nfile: C:x\n"), "");
+}
+
+}  // namespace
+}  // namespace fsi
