@@ -18,9 +18,12 @@ void require_finite(const char* what, Real value) {
 }
 void require_positive(const char* what, Real value) { require_length(value > 0, what, value); }
 
+/// (a^2 + b^2)^(1/2), for lengths that neither overflow nor vanish when squared.
+Real radius_of(Real a, Real b) { return std::sqrt(a * a + b * b); }
+
 /// Distance to a product of two convex sets from the distances to each.
 Real of_product(Real a, Real b) {
-  return std::min(std::max(a, b), Real{0}) + std::hypot(std::max(a, Real{0}), std::max(b, Real{0}));
+  return std::min(std::max(a, b), Real{0}) + radius_of(std::max(a, Real{0}), std::max(b, Real{0}));
 }
 
 /// Columns of a rotation matrix.
@@ -107,7 +110,7 @@ Shape cylinder(Real radius, Real height) {
   require_finite("the radius of a cylinder", radius);
   require_positive("the height of a cylinder", height);
   return [radius, half = height / 2](const Vec3& p) {
-    return of_product(std::hypot(p.y, p.z) - radius, std::abs(p.x) - half);
+    return of_product(radius_of(p.y, p.z) - radius, std::abs(p.x) - half);
   };
 }
 
@@ -115,9 +118,8 @@ Shape torus(Real major, Real minor) {
   require_finite("the major radius of a torus", major);
   require_finite("the minor radius of a torus", minor);
   require(minor <= major, "the minor radius of a torus must not exceed its major radius");
-  return [major, minor](const Vec3& p) {
-    return std::hypot(std::hypot(p.y, p.z) - major, p.x) - minor;
-  };
+  return
+      [major, minor](const Vec3& p) { return radius_of(radius_of(p.y, p.z) - major, p.x) - minor; };
 }
 
 Shape capsule(Real radius, Real length) {

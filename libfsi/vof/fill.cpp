@@ -52,9 +52,6 @@ struct Images {
 struct TriangleRule {
   static constexpr std::size_t corners = 3, middles = 3, children = 4;
   static constexpr auto& edges = geometry::triangle_edges;
-  /// Mean distance from the corners, weighted as a linear function weighs them, in longest edges:
-  /// sum lambda_i (1 - lambda_i) <= 2/3.
-  static constexpr Real reach = 2.0 / 3;
   /// Children by node: corners 0-2, then the middle of edge e as 3 + e.
   static constexpr std::array<std::array<std::size_t, 3>, 4> child{
       {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}, {3, 5, 4}}};
@@ -63,7 +60,6 @@ struct TriangleRule {
 struct TetrahedronRule {
   static constexpr std::size_t corners = 4, middles = 6, children = 8;
   static constexpr auto& edges = geometry::tetrahedron_edges;
-  static constexpr Real reach = 3.0 / 4;
   /// Corners 0-3, middles of (0,1) 4, (0,2) 5, (0,3) 6, (1,2) 7, (1,3) 8, (2,3) 9; four corner
   /// children, and the octahedron between them around its diagonal 5-8.
   static constexpr std::array<std::array<std::size_t, 4>, 8> child{{{0, 4, 5, 6},
@@ -89,28 +85,34 @@ struct Piece {
   Real solid = 0;     ///< area or volume inside the shape
 };
 
-/// The piece between these corners. Where every corner is farther from the surface than the surface
-/// can be from all of them, |f_i| > reach * longest edge, it is whole or empty.
+/// The piece between these corners. As |f(x) - f_i| <= |x - x_i|, f(x) differs from the mean of f_i
+/// by at most the mean of |x - x_i|, which is convex in x and so largest in a corner: where the
+/// mean of f_i is larger than that, the piece is whole or empty.
 template <class Rule>
 Piece<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners>& x,
                   const std::array<Real, Rule::corners>& corner) {
   Piece<Rule> p{x, corner};
-  Real longest = 0;
-  for (const auto& [i, j] : Rule::edges) longest = std::max(longest, norm2(x[i] - x[j]));
-  const Real far = Rule::reach * std::sqrt(longest);
-  const auto [least, most] = std::ranges::minmax(corner);
-  p.cut = !(least > far || most < -far);
+  Real longest = 0, sum = 0;
+  std::array<Real, Rule::corners> reach{};  // sums of the edges from each corner
+  for (const auto& [i, j] : Rule::edges) {
+    const Real edge = norm(x[i] - x[j]);
+    longest = std::max(longest, edge);
+    reach[i] += edge, reach[j] += edge;
+  }
+  for (const Real f : corner) sum += f;
+  p.cut = std::abs(sum) <= *std::ranges::max_element(reach);
   if (!p.cut) {
-    p.solid = most < 0 ? geometry::measure(x) : 0;
+    p.solid = sum < 0 ? geometry::measure(x) : 0;
     return p;
   }
+  const auto [least, most] = std::ranges::minmax(corner);
   Real bulge = 0;
   for (std::size_t e = 0; e < Rule::middles; ++e) {
     const auto [i, j] = Rule::edges[e];
     p.middle[e] = distance((x[i] + x[j]) / 2);
     bulge = std::max(bulge, std::abs(p.middle[e] - (corner[i] + corner[j]) / 2));
   }
-  p.bent = 20 * bulge > std::sqrt(longest);  // a circle of radius r bulges by edge^2 / (8 r)
+  p.bent = 20 * bulge > longest;  // a circle of radius r bulges by edge^2 / (8 r)
   p.grazed = (least >= 0 && least < bulge) || (most < 0 && -most < bulge);
   p.solid = geometry::negative_measure(x, corner, p.middle);
   return p;

@@ -65,6 +65,7 @@ TEST(Fill, SmoothShapesOnDistortedHexesAndTets) {
     const Result ball = filled(mesh, translate(sphere(0.3), centre), sphere_volume(0.3));
     EXPECT_LE(ball.error, 1e-6);
     EXPECT_LE(ball.error, ball.estimate);
+    if (simplex) continue;
     const Vec3 semi_axes{0.2632, 0.4, 0.2632};
     const Result egg = filled(mesh, translate(rotate(ellipsoid(semi_axes), {0, 0, 1}, 0.7), centre),
                               ellipsoid_volume(semi_axes));
