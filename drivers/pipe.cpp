@@ -29,11 +29,10 @@ Ending body() {
   Output output(which, options, solver, "pipe");
 
   // 5 time
-  Clock clock(which.time.end);
+  Clock clock(which.time.end, solver.state().t);
   while (clock.running() && output.go_on()) {
     const Limit limit = stable_dt(solver, which.time);
-    const Real dt = clock.step(limit.dt, output.next_event());
-    solver.step(dt);
+    const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);
   }

@@ -26,14 +26,13 @@ Ending body() {
   if (which.solid.shape) solver.put_solid(*which.solid.shape);
 
   // 4 what to write
-  Output output(which, options, solver, "stenosis", "outlet");
+  Output output(which, options, solver, "stenosis");
 
   // 5 time
-  Clock clock(which.time.end);
+  Clock clock(which.time.end, solver.state().t);
   while (clock.running() && output.go_on()) {
     const Limit limit = stable_dt(solver, which.time);
-    const Real dt = clock.step(limit.dt, output.next_event());
-    solver.step(dt);
+    const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);
   }

@@ -2,6 +2,7 @@
 // The momentum equation up to the pressure correction.
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
@@ -62,7 +63,7 @@ class Momentum {
   CellField<Vec3>& history() { return history_; }
   const CellField<Vec3>& history() const { return history_; }
   Real dt_old = 0;
-  int steps_taken = 0;
+  std::int64_t steps_taken = 0;
   Real theta = 0.5;  ///< after the first steps
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }

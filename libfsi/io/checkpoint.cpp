@@ -133,6 +133,13 @@ void Checkpoint::keep_two() const {
     std::filesystem::remove(path(numbers[i]), code);
 }
 
+void Checkpoint::clear() const {
+  if (rank() != 0) return;
+  std::error_code code;
+  for (const std::int64_t number : numbers_in(directory_))
+    std::filesystem::remove(path(number), code);
+}
+
 bool Checkpoint::write(const Snapshot& snapshot) {
   for (const Snapshot::Values& f : snapshot.fields())
     require_finite(f.name, f.values, f.width, f.on, mesh_);

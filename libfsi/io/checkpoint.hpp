@@ -54,6 +54,9 @@ class Checkpoint {
   /// Collective. Removes what an interrupted write left behind.
   Checkpoint(std::string directory, const Mesh& mesh);
 
+  /// Removes the checkpoints of an earlier run.
+  void clear() const;
+
   /// Collective. Returns whether it was written. A disk that is full or forbids it is no error: a
   /// warning is printed, the older checkpoints stay and the run may go on. Errors: Error{numerics}
   /// when a value is not finite; nothing is then written.

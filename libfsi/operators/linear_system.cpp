@@ -86,8 +86,15 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       prefer(prefix, "pc_hypre_boomeramg_relax_type_all", "Chebyshev");
       break;
     case Method::direct:
+      if (ranks() > 1) {
+        // Every rank factors the whole, which is small: a parallel factorisation (MUMPS) adds up in
+        // an order that differs from run to run.
+        KSP inner = nullptr;
+        FSI_PETSC(PCSetType(pc, PCREDUNDANT));
+        FSI_PETSC(PCRedundantGetKSP(pc, &inner));
+        FSI_PETSC(KSPGetPC(inner, &pc));
+      }
       FSI_PETSC(PCSetType(pc, PCCHOLESKY));
-      if (ranks() > 1) FSI_PETSC(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
       FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
       break;
     case Method::jacobi:

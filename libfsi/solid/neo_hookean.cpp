@@ -15,7 +15,12 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
                        const FaceWeights& weights, const GradientStencil& stencil,
                        const Band& band) {
   for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad_[c] = {};
-  for (const Index f : last_faces_) balance[f] = 0;
+  for (const Index f : last_faces_) {
+    balance[f] = 0;
+    // The outermost faces push at cells beyond the band.
+    force[mesh_.owner[f]] = {};
+    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = {};
+  }
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 

@@ -52,6 +52,14 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   output.sample_interval = options.real(
       "sample_interval", 0,
       {.help = "between rows of the csv files; 0: every step", .unit = "time", .min = 0});
+  output.checkpoint_interval = options.real(
+      "checkpoint_interval", 0,
+      {.help = "between checkpoints, of which the two newest are kept; 0: one where the "
+               "run does not reach its end",
+       .unit = "time",
+       .min = 0});
+  output.restart =
+      options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
   output.wall_seconds_max = options.real(
       "max_wall_time", 0,
       {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});

@@ -2,80 +2,55 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 
 #include "libfsi/analysis/measures.hpp"
-#include "libfsi/analysis/surface.hpp"
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
+#include "libfsi/io/manifest.hpp"
 
 namespace fsi {
 namespace {
 
-const std::vector<std::string> flow_columns{"t",
-                                            "dt",
-                                            "dt_limit",
-                                            "courant",
-                                            "pressure_gradient",
-                                            "pressure_drop",
-                                            "flow_rate",
-                                            "divergence_max",
-                                            "kinetic_energy",
-                                            "elastic_energy",
-                                            "pressure_iterations",
-                                            "wall_per_step"};
-
-const std::vector<std::string> solid_columns{
-    "t",  "x",  "y",  "z",     "ux",        "uy",        "uz",        "volume",
-    "nx", "ny", "nz", "angle", "det_B_min", "det_B_max", "min_eig_B", "overshoot"};
-
-CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
-  CellField<SymTensor> B(mesh, identity());
-  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = solid::B_of(body.Bt[c], body.alpha[c]);
-  return B;
+/// The directory, made if it is not there: what the members of Output need first.
+const std::string& made(const std::string& directory) {
+  io::make_directory(directory);
+  return directory;
 }
 
-Real kinetic_energy(const Solver& solver, Real rho) {
-  const Mesh& mesh = solver.mesh();
-  Sum sum;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    sum.add(rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
-  return sum.total();
-}
-
-Real flow_rate(const Solver& solver, const Patch& patch) {
-  Sum sum;
-  for (Index f = patch.begin; f < patch.end; ++f) sum.add(solver.state().phi[f]);
-  return sum.total();
-}
-
-Real pressure_span(const Solver& solver) {
-  const auto p = solver.state().p.owned();
-  Real low = std::numeric_limits<Real>::max(), high = -low;
-  for (const Real value : p) low = std::min(low, value), high = std::max(high, value);
-  return global_max(high) - global_min(low);
-}
+/// `text` of rank 0 decides for all.
+bool agreed(bool holds) { return broadcast(holds ? "yes" : "") == "yes"; }
 
 }  // namespace
 
-Output::Output(const Case& which, const Options& options, const Solver& solver,
-               const std::string& driver, std::string flow_patch)
+Output::Output(const Case& which, const Options& options, Solver& solver, const std::string& driver)
     : case_(which),
       options_(options),
       solver_(solver),
       driver_(driver),
-      flow_patch_(std::move(flow_patch)),
-      sample_(which.output.sample_interval) {
-  io::make_directory(which.output.directory);
-  io::write_text(which.output.directory + "/run.yaml", options.yaml());
-  flow_.emplace(which.output.directory + "/flow.csv", flow_columns);
-  if (solver.body()) {
-    solid_.emplace(which.output.directory + "/solid.csv", solid_columns);
-    volume_0_ = solver.body()->filled.volume;
-    write_solid();
+      lock_(made(which.output.directory)),
+      checkpoints_(which.output.directory, solver.mesh()),
+      record_(which.solid.name == "torus"),
+      sample_(which.output.sample_interval),
+      field_(which.output.field_interval),
+      checkpoint_(which.output.checkpoint_interval) {
+  if (which.output.restart) {
+    checkpoints_.read(snapshot());
+    solver_.resume();
+    for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
+    if (rank() == 0)
+      std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
+                  static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
+  } else {
+    checkpoints_.clear();
+    checkpoint_.resume(0);  // the start needs none
   }
+  first_step_ = row_step_ = solver_.state().step;
+  io::write_text(which.output.directory + "/run.yaml", options.yaml());
+  open_tables();
   io::write_text(which.output.directory + "/summary.json", summary("failed"));
 }
 
@@ -84,97 +59,97 @@ Output::~Output() {
   std::ofstream(case_.output.directory + "/summary.json") << summary("failed");
 }
 
+io::Snapshot Output::snapshot() {
+  io::Snapshot all("driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no"));
+  solver_.list(all);
+  if (solver_.body()) record_.list(all);
+  return all;
+}
+
+void Output::open_tables() {
+  const std::string& directory = case_.output.directory;
+  const bool restart = case_.output.restart;
+  const Real t = restart ? solver_.state().t : -std::numeric_limits<Real>::infinity();
+  flow_.emplace(directory + "/flow.csv", names(flow_row(solver_, {}, 0, 0)), t);
+  if (solver_.body()) {
+    SolidRecord first = record_;  // a restart must find the record as it was
+    const std::vector<Entry> row = first.row(solver_);
+    solid_.emplace(directory + "/solid.csv", names(row), t);
+    if (!restart) record_ = first, solid_->row(values(row));
+  }
+  if (case_.output.field_interval <= 0) return;
+  fields_.emplace(directory, solver_.mesh(), t);
+  if (field_.due(solver_.state().t)) write_fields();
+}
+
 bool Output::go_on() {
   const Signal signal = pending_signal();
   const Real wall = case_.output.wall_seconds_max;
+  if (signal == Signal::checkpoint) write_checkpoint();
   interrupted_ = signal == Signal::end || (wall > 0 && global_max(watch_.seconds()) > wall);
-  return !interrupted_;
+  return !interrupted_ && solver_.report().failure.empty();
 }
 
-Real Output::next_event() const { return sample_.next(solver_.state().t); }
+Real Output::next_event() const {
+  const Real t = solver_.state().t;
+  return std::min({sample_.next(t), field_.next(t), checkpoint_.next(t)});
+}
 
 void Output::after_step(const Limit& limit, Real dt) {
-  if (solver_.state().step == 1) options_.check_unused();
+  if (!solver_.report().failure.empty()) return;
+  const State& s = solver_.state();
+  if (s.step == first_step_ + 1) options_.check_unused();
   const bool every_step = case_.output.sample_interval <= 0;
-  if (every_step || sample_.due(solver_.state().t)) write_row(limit, dt);
+  if (every_step || sample_.due(s.t)) write_row(limit, dt);
+  if (field_.due(s.t)) write_fields();
+  if (checkpoint_.due(s.t)) write_checkpoint();
+  constexpr Real seconds_between = 1;
+  if (!agreed(watch_.seconds() > progress_at_ + seconds_between || s.step == first_step_ + 1))
+    return;
+  write_progress(limit, dt);
+  progress_at_ = watch_.seconds();
 }
 
 void Output::write_row(const Limit& limit, Real dt) {
+  const std::int64_t step = solver_.state().step;
+  const Real now = watch_.seconds();
+  const auto steps = static_cast<Real>(std::max<std::int64_t>(1, step - row_step_));
+  flow_->row(values(flow_row(solver_, limit, dt, (now - rows_at_) / steps)));
+  if (solver_.body()) solid_->row(values(record_.row(solver_)));
+  rows_at_ = now;
+  row_step_ = step;
+}
+
+void Output::write_fields() {
+  const Mesh& mesh = solver_.mesh();
+  const State& s = solver_.state();
+  CellField<Real> Q(mesh);
+  analysis::q_criterion(Q, solver_.velocity_gradient());
+  std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
+  std::optional<CellField<SymTensor>> B;
+  if (const std::optional<Body>& body = solver_.body()) {
+    B.emplace(B_field(*body, mesh));
+    fields.push_back(io::named("alpha", body->alpha));
+    fields.push_back(io::named("B", *B));
+  }
+  fields_->write(s.t, fields);
+  fields_at_ = s.t;
+}
+
+void Output::write_checkpoint() { checkpoints_.write(snapshot()); }
+
+void Output::write_progress(const Limit& limit, Real dt) {
   const State& s = solver_.state();
   divergence_ = flow::divergence_max(s.phi, solver_.mesh());
   const Real courant = dt / solver_.advective_dt(1);
-  const Real now = watch_.seconds();
-  const Real per_step =
-      (now - rows_at_) / static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
-  const Real rate = flow_patch_.empty() ? 0 : flow_rate(solver_, solver_.mesh().patch(flow_patch_));
-  const std::optional<Body>& body = solver_.body();
-  const Real elastic =
-      body ? analysis::elastic_energy(case_.physics.G, B_field(*body, solver_.mesh()), body->alpha,
-                                      solver_.mesh())
-           : 0;
-  const std::array row{s.t,
-                       dt,
-                       limit.dt,
-                       courant,
-                       solver_.driving_gradient(),
-                       pressure_span(solver_),
-                       rate,
-                       divergence_,
-                       kinetic_energy(solver_, case_.physics.rho),
-                       elastic,
-                       static_cast<Real>(solver_.report().pressure_iterations),
-                       per_step};
-  flow_->row(row);
-  if (solver_.body()) write_solid();
-  rows_at_ = now;
-  row_step_ = s.step;
-  constexpr Real seconds_between = 1;
-  const bool due = broadcast(now > progress_at_ + seconds_between ? "yes" : "") == "yes";
-  if (due || s.step == 1) {
-    write_progress(limit, dt, divergence_);
-    progress_at_ = now;
-  }
-}
-
-void Output::write_solid() {
-  const Body& body = *solver_.body();
-  const State& s = solver_.state();
-  const Mesh& mesh = solver_.mesh();
-  const analysis::Motion m = analysis::motion(tracker_, body.alpha, s.u, mesh);
-  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
-  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, axis_);
-  axis_ = o.n;
-  const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
-  drift_ = m.volume / volume_0_ - 1;
-  const std::array row{s.t,
-                       m.centroid.x,
-                       m.centroid.y,
-                       m.centroid.z,
-                       m.velocity.x,
-                       m.velocity.y,
-                       m.velocity.z,
-                       m.volume,
-                       o.n.x,
-                       o.n.y,
-                       o.n.z,
-                       o.angle,
-                       h.det_min,
-                       h.det_max,
-                       h.eigenvalue_min,
-                       body.advected.overshoot};
-  solid_->row(row);
-}
-
-void Output::write_progress(const Limit& limit, Real dt, Real divergence) const {
   if (rank() != 0) return;
-  const State& s = solver_.state();
-  const Real eta = watch_.seconds() * (case_.time.end / s.t - 1);
+  const auto done = static_cast<Real>(s.step - first_step_), rest = (case_.time.end - s.t) / dt;
   std::printf(
       "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
       "%.0f s\n",
-      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(),
-      dt / limit.dt * case_.time.courant, divergence, drift_, solver_.report().pressure_iterations,
-      solver_.report().velocity_iterations, eta);
+      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_,
+      record_.drift(), solver_.report().pressure_iterations, solver_.report().velocity_iterations,
+      watch_.seconds() / done * rest);
   std::fflush(stdout);
 }
 
@@ -182,21 +157,31 @@ std::string Output::summary(const std::string& status) const {
   io::Summary s;
   s.case_name = driver_;
   s.status = status;
+  s.message = solver_.report().failure;
   s.cells = solver_.mesh().n_global;
   s.ranks = ranks();
   s.steps = solver_.state().step;
+  s.rejected_steps = solver_.report().rejected;
   s.t = solver_.state().t;
   s.wall_seconds = watch_.seconds();
   s.divergence_max = divergence_;
-  s.solid_volume_drift = drift_;
+  s.solid_volume_drift = record_.drift();
   s.phases = solver_.profile().seconds();
   return io::json(s);
 }
 
 Ending Output::finish() {
+  const std::string& failure = solver_.report().failure;
+  const bool complete = failure.empty() && !interrupted_;
+  divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
+  if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
+  if (!complete || case_.output.checkpoint_interval > 0) write_checkpoint();
+  const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
   finished_ = true;
-  const std::string status = interrupted_ ? "interrupted" : "complete";
   io::write_text(case_.output.directory + "/summary.json", summary(status));
+  if (!failure.empty())
+    throw Error(Kind::numerics,
+                failure + "; the state before it is in \"" + checkpoints_.file() + "\"");
   if (rank() == 0)
     std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n", status.c_str(),
                 solver_.state().t, static_cast<long long>(solver_.state().step), watch_.seconds(),

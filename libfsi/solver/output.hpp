@@ -1,17 +1,18 @@
 #pragma once
-// What a run leaves behind: tables, summary, progress line.
+// What a run leaves behind: tables, fields, checkpoints, summary, progress line.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "libfsi/analysis/motion.hpp"
-#include "libfsi/analysis/orientation.hpp"
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/run.hpp"
-#include "libfsi/io/manifest.hpp"
+#include "libfsi/io/checkpoint.hpp"
+#include "libfsi/io/fields.hpp"
+#include "libfsi/io/file.hpp"
 #include "libfsi/io/table.hpp"
 #include "libfsi/solver/case.hpp"
+#include "libfsi/solver/records.hpp"
 
 namespace fsi {
 
@@ -19,42 +20,48 @@ namespace fsi {
 /// says how the run stands; it reads "failed" until finish().
 class Output {
  public:
-  /// Collective. Makes the directory, writes run.yaml and opens the tables. flow_patch: the patch
-  /// whose flow rate is reported; "" where there is none. Errors: Error{io}.
-  Output(const Case& which, const Options& options, const Solver& solver, const std::string& driver,
-         std::string flow_patch = "");
+  /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
+  /// earlier one left there under the same names; with -restart the solver's state, the tables and
+  /// the series of fields go on from the newest sound checkpoint. Errors: Error{io}; Error{input}
+  /// where another run holds the directory or there is nothing to go on from.
+  Output(const Case& which, const Options& options, Solver& solver, const std::string& driver);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Whether the run may go on; false once wall time is up or the end was asked for.
+  /// Whether the run may go on; false once a step failed for good, wall time is up or the end was
+  /// asked for.
   bool go_on();
   /// Time of the next event that a step must hit.
   Real next_event() const;
-  /// Collective. After every step of length dt: writes what is due and the progress line.
+  /// Collective. After every step of length dt, 0 if it failed: writes what is due.
   void after_step(const Limit& limit, Real dt);
-  /// Collective. Last files; returns how the run ended.
+  /// Collective. Last files; returns how the run ended. Errors: Error{numerics} with the reason
+  /// where the last step failed; a checkpoint of the state before it is there.
   Ending finish();
 
  private:
+  io::Snapshot snapshot();
+  void open_tables();
   void write_row(const Limit& limit, Real dt);
-  void write_solid();
-  void write_progress(const Limit& limit, Real dt, Real divergence) const;
+  void write_fields();
+  void write_checkpoint();
+  void write_progress(const Limit& limit, Real dt);
   std::string summary(const std::string& status) const;
 
   const Case& case_;
   const Options& options_;
-  const Solver& solver_;
-  std::string driver_, flow_patch_;
-  Every sample_;
-  std::optional<io::Table> flow_;
-  std::optional<io::Table> solid_;
-  analysis::Tracker tracker_;
-  Vec3 axis_;
-  Real volume_0_ = 0, drift_ = 0;
+  Solver& solver_;
+  std::string driver_;
+  io::Lock lock_;
+  io::Checkpoint checkpoints_;
+  SolidRecord record_;
+  Every sample_, field_, checkpoint_;
+  std::optional<io::Table> flow_, solid_;
+  std::optional<io::FieldWriter> fields_;
   Stopwatch watch_;
-  Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0;
-  std::int64_t row_step_ = 0;
+  Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
+  std::int64_t row_step_ = 0, first_step_ = 0;
   bool interrupted_ = false, finished_ = false;
 };
 

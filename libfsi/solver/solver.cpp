@@ -90,7 +90,7 @@ void Solver::step(Real dt) {
   predict_flux(dt);        // phi* from u*                            [Rhie83]
   project(dt);             // div u = 0                               [Matsumiya25] (1)
   hold_mean_velocity(dt);  // S                                       [Matsumiya25] (12)
-  check_finite();
+  check();
   state_.t += dt;
   ++state_.step;
 }
@@ -163,12 +163,14 @@ void Solver::hold_mean_velocity(Real dt) {
   if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
 }
 
-void Solver::check_finite() const {
+void Solver::check() const {
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
+  if (body_)
+    for (const Index c : body_->band.cells()) sum += body_->alpha[c] + trace(body_->Bt[c]);
   if (!all_of_ranks(std::isfinite(sum)))
-    throw Error(Kind::numerics,
-                "velocity or pressure is not finite after step " + std::to_string(state_.step + 1));
+    throw Error(Kind::numerics, "velocity, pressure or strain is not finite after step " +
+                                    std::to_string(state_.step + 1));
 }
 
 Real Solver::advective_dt(Real courant) const {

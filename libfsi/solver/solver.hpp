@@ -14,6 +14,7 @@
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
 
 namespace fsi {
@@ -44,10 +45,12 @@ struct State {
   std::int64_t step = 0;
 };
 
-/// What the last step took.
+/// What the last step took, and what went wrong in this run.
 struct StepReport {
   int velocity_iterations = 0, pressure_iterations = 0;
   Real pressure_residual = 0;
+  std::int64_t rejected = 0;  ///< steps taken back
+  std::string failure;        ///< why the run cannot go on; empty while it can
 };
 
 /// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates
@@ -67,6 +70,16 @@ class Solver {
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
   void step(Real dt);
 
+  /// Collective. A step of dt or, where that fails, of a half, a quarter ... of it from the same
+  /// state, with at most eight halvings. Returns the length taken; 0 when all failed:
+  /// report().failure then says why and the state is that before the step.
+  Real advance(Real dt);
+
+  /// Adds all that the next step depends on to a checkpoint's list. After the solid is put in.
+  void list(io::Snapshot& snapshot);
+  /// Collective. Renews what follows from the listed state, once that was read.
+  void resume();
+
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
   /// Collective. Elastic limit of the solid; the largest number without one.
@@ -82,11 +95,14 @@ class Solver {
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
+  const BoundaryField<Real>& p_b() const { return p_b_; }
   /// Velocity gradient at the state's time; collective.
   const CellField<Tensor>& velocity_gradient();
   /// Driving pressure gradient S; zero without a mean velocity.
   Real driving_gradient() const { return forcing_ ? forcing_->gradient : 0; }
-  /// Volume mean of the velocity along the axis.
+  /// Of the mean velocity.
+  Vec3 axis() const { return forcing_ ? forcing_->axis() : Vec3{1, 0, 0}; }
+  /// Volume mean of the velocity along the axis; collective.
   Real mean_velocity() const { return forcing_ ? forcing_->mean(state_.phi) : 0; }
 
  private:
@@ -99,7 +115,7 @@ class Solver {
   void predict_flux(Real dt);
   void project(Real dt);
   void hold_mean_velocity(Real dt);
-  void check_finite() const;
+  void check() const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
 
   const Mesh& mesh_;
@@ -118,6 +134,7 @@ class Solver {
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
+  std::optional<Backup> backup_;
   Real cells_norm_ = 0;  // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;

@@ -68,6 +68,11 @@ int Reconstruct::operator()(Interface& interface, const CellField<Real>& alpha) 
   return most;
 }
 
+void Reconstruct::renew(Interface& interface, const CellField<Real>& alpha) {
+  find_cells(interface, alpha);
+  cut(interface, alpha);
+}
+
 void Reconstruct::find_cells(Interface& interface, const CellField<Real>& alpha) {
   // Cells that held a plane but hold none now are cleared; the halo is set by the exchange in
   // cut().

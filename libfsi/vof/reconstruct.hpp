@@ -23,6 +23,9 @@ class Reconstruct {
   /// vortex, 128^2, T = 8: shape error 2.5e-3 with one, 3.3e-3 with five). Returns the iterations.
   int operator()(Interface& interface, const CellField<Real>& alpha);
 
+  /// Collective. Finds the cells and planes of alpha with the normals that `interface` holds.
+  void renew(Interface& interface, const CellField<Real>& alpha);
+
  private:
   void find_cells(Interface& interface, const CellField<Real>& alpha);
   bool first_normals(Interface& interface, const CellField<Real>& alpha);

@@ -15,11 +15,16 @@ import shutil
 import subprocess
 import sys
 
-# Of a column's largest size: what solver tolerances may leave between numbers of ranks.
+# Of a column's largest size: what solver tolerances may leave between numbers of ranks. The pressure
+# is solved tighter than by default, so that a real difference shows.
 TOLERANCE = 1e-6
+TIGHT = ["-p_ksp_rtol", "1e-10"]
 # Columns that tell of the run, not of the flow.
-OF_THE_RUN = {"wall_per_step", "pressure_iterations", "divergence_max", "det_B_min", "det_B_max",
-              "min_eig_B"}
+OF_THE_RUN = {"wall_per_step", "pressure_iterations", "divergence_max", "overshoot", "det_B_min",
+              "det_B_max", "min_eig_B"}
+# The axis of a round solid has no direction of its own.
+AXIS = {"nx", "ny", "nz", "angle"}
+ROUND = {"cavity_disc", "stenosis_sphere"}
 failures = []
 
 
@@ -67,12 +72,12 @@ def check_files(out, ranks):
         check("nan" not in file.read().lower(), f"{out}: flow.csv holds numbers only")
 
 
-def compare(name, one, other, tolerance):
+def compare(name, one, other, tolerance, skipped):
     """Columns of the same name agree, relative to the largest size of the column."""
     a, b = table(os.path.join(one, name)), table(os.path.join(other, name))
     check(list(a) == list(b), f"{name}: the same columns")
     for column in a:
-        if column in OF_THE_RUN or column not in b:
+        if column in skipped or column not in b:
             continue
         check(len(a[column]) == len(b[column]), f"{name}: {column} has as many rows")
         size = max(map(abs, a[column] + [1e-3]))
@@ -93,7 +98,8 @@ def main():
     make_mesh(case, source, n, mesh)
 
     one, many, again = (os.path.join(folder, d) for d in ("one", "many", "again"))
-    options = ["-mesh", mesh, "-time_end", end, "-output_interval", end, "-sample_interval", "0"]
+    options = ["-mesh", mesh, "-time_end", end, "-output_interval", end, "-sample_interval", "0",
+               *TIGHT]
     run([driver, case, *options, "-output_dir", one])
     check_files(one, 1)
     run([*mpiexec, ranks, driver, case, *options, "-output_dir", many])
@@ -101,8 +107,8 @@ def main():
     run([driver, os.path.join(one, "run.yaml"), "-output_dir", again])
     for file in ("flow.csv", "solid.csv"):
         if os.path.exists(os.path.join(one, file)):
-            compare(file, one, many, TOLERANCE)
-            compare(file, one, again, 0)
+            compare(file, one, many, TOLERANCE, OF_THE_RUN | (AXIS if name in ROUND else set()))
+            compare(file, one, again, 0, {"wall_per_step"})
     run(["/usr/bin/python3", os.path.join(source, "examples", "draw.py"), one])
     for picture in ("series.png", "flow.png"):
         check(os.path.exists(os.path.join(one, picture)), f"{picture} is drawn")

@@ -1,0 +1,172 @@
+#include "libfsi/solver/records.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "libfsi/analysis/measures.hpp"
+#include "libfsi/analysis/orientation.hpp"
+#include "libfsi/analysis/ring.hpp"
+#include "libfsi/analysis/surface.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+const Patch* find(const Mesh& mesh, const std::string& name) {
+  const auto at = std::ranges::find(mesh.patches, name, &Patch::name);
+  return at == mesh.patches.end() ? nullptr : &*at;
+}
+
+Real kinetic_energy(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    sum.add(solver.physics().rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
+  return sum.total();
+}
+
+/// Length of a periodic channel along its axis; 0 where the mesh has no period along it.
+Real period(const Solver& solver) {
+  Real length = 0;
+  for (const Vec3& translation : solver.mesh().translation)
+    length = std::max(length, std::abs(dot(translation, solver.axis())));
+  return length;
+}
+
+Real flow_rate(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  const Real length = period(solver);
+  if (length > 0) return solver.mean_velocity() * mesh.total_volume / length;
+  const Patch* outlet = find(mesh, "outlet");
+  if (outlet == nullptr) return 0;
+  Sum sum;
+  for (Index f = outlet->begin; f < outlet->end; ++f) sum.add(solver.state().phi[f]);
+  return sum.total();
+}
+
+Real mean_pressure(const Solver& solver, const Patch& patch) {
+  const Mesh& mesh = solver.mesh();
+  Sum p, area;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Real size = norm(mesh.Sf[f]);
+    p.add(size * solver.p_b()[f - mesh.n_internal]), area.add(size);
+  }
+  return p.total() / area.total();
+}
+
+Real pressure_drop(const Solver& solver) {
+  const Patch *inlet = find(solver.mesh(), "inlet"), *outlet = find(solver.mesh(), "outlet");
+  if (inlet == nullptr || outlet == nullptr) return solver.driving_gradient() * period(solver);
+  return mean_pressure(solver, *inlet) - mean_pressure(solver, *outlet);
+}
+
+Real pressure_span(const Solver& solver) {
+  Real low = std::numeric_limits<Real>::max(), high = -low;
+  for (const Real p : solver.state().p.owned()) low = std::min(low, p), high = std::max(high, p);
+  return global_max(high) - global_min(low);
+}
+
+void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) row.push_back({columns[static_cast<std::size_t>(i)], v[i]});
+}
+
+Real aspect(const analysis::Ellipse& e) { return e.aspect(); }
+
+void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
+  row.push_back({"aspect_forward", aspect(ring.forward)});
+  row.push_back({"aspect_back", aspect(ring.back)});
+  row.push_back({"aspect_right", aspect(ring.right)});
+  row.push_back({"aspect_left", aspect(ring.left)});
+  row.push_back({"aspect_inner", aspect(ring.inner)});
+  row.push_back({"aspect_outer", aspect(ring.outer)});
+  row.push_back({"bending_meridian", ring.bending_meridian});
+  row.push_back({"bending_prime", ring.bending_prime});
+}
+
+}  // namespace
+
+std::vector<std::string> names(const std::vector<Entry>& row) {
+  std::vector<std::string> result;
+  for (const Entry& entry : row) result.push_back(entry.name);
+  return result;
+}
+
+std::vector<Real> values(const std::vector<Entry>& row) {
+  std::vector<Real> result;
+  for (const Entry& entry : row) result.push_back(entry.value);
+  return result;
+}
+
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
+  CellField<SymTensor> B(mesh, identity());
+  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = solid::B_of(body.Bt[c], body.alpha[c]);
+  return B;
+}
+
+std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
+  const Mesh& mesh = solver.mesh();
+  const std::optional<Body>& body = solver.body();
+  const Real elastic =
+      body ? analysis::elastic_energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh)
+           : 0;
+  return {{"t", solver.state().t},
+          {"dt", dt},
+          {"dt_limit", limit.dt},
+          {"courant", dt / solver.advective_dt(1)},
+          {"pressure_gradient", solver.driving_gradient()},
+          {"pressure_drop", pressure_drop(solver)},
+          {"pressure_span", pressure_span(solver)},
+          {"flow_rate", flow_rate(solver)},
+          {"mean_velocity", solver.mean_velocity()},
+          {"divergence_max", flow::divergence_max(solver.state().phi, mesh)},
+          {"kinetic_energy", kinetic_energy(solver)},
+          {"elastic_energy", elastic},
+          {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations)},
+          {"wall_per_step", wall_per_step}};
+}
+
+std::vector<Entry> SolidRecord::row(const Solver& solver) {
+  const Body& body = *solver.body();
+  const Mesh& mesh = solver.mesh();
+  tracker_.started = started_ != 0;
+  const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh);
+  started_ = tracker_.started ? 1 : 0;
+  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
+  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, axis_);
+  axis_ = o.n;
+  const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
+  if (volume_0_ == 0) volume_0_ = m.volume;
+  drift_ = m.volume / volume_0_ - 1;
+  std::vector<Entry> row{{"t", solver.state().t}};
+  add(row, {"x", "y", "z"}, m.centroid);
+  add(row, {"ux", "uy", "uz"}, m.velocity);
+  row.push_back({"volume", m.volume});
+  add(row, {"nx", "ny", "nz"}, o.n);
+  row.push_back({"angle", o.angle});
+  row.push_back({"det_B_min", h.det_min});
+  row.push_back({"det_B_max", h.det_max});
+  row.push_back({"min_eig_B", h.eigenvalue_min});
+  row.push_back({"overshoot", body.advected.overshoot});
+  if (!ring_ || mesh.dim == 2) return row;
+  const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
+  zeta_ = frame.zeta;
+  add_ring(row, analysis::ring(surface, tracker_.home, frame));
+  return row;
+}
+
+void SolidRecord::list(io::Snapshot& snapshot) {
+  const auto add_vector = [&](const std::string& name, Vec3& v) {
+    snapshot.add(name + "_x", &v.x);
+    snapshot.add(name + "_y", &v.y);
+    snapshot.add(name + "_z", &v.z);
+  };
+  add_vector("tracker_home", tracker_.home);
+  add_vector("tracker_travelled", tracker_.travelled);
+  add_vector("tracker_middle", tracker_.middle);
+  add_vector("axis", axis_);
+  add_vector("zeta", zeta_);
+  snapshot.add("tracker_started", &started_);
+  snapshot.add("volume_0", &volume_0_);
+}
+
+}  // namespace fsi
