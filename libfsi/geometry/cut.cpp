@@ -1,221 +1,268 @@
 #include "libfsi/geometry/cut.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
 
 namespace fsi::geometry {
 namespace {
 
-/// Twice the area vector of a polygon, about its first corner.
-Vec3 double_area(const Polygon& p) {
-  Vec3 sum;
-  for (int i = 2; i < p.n; ++i) sum += cross(p.x[i - 1] - p.x[0], p.x[i] - p.x[0]);
-  return sum;
+/// Mean of (t / d)^2 over t from a to b, all in [0, d].
+Real mean_square(Real a, Real b, Real d) {
+  const Real p = a / d, r = b / d;
+  return (p * p + p * r + r * r) / 3;
 }
 
-/// The part of a face below the plane (Sutherland and Hodgman), and the two points where the plane
-/// crosses its rim, in the order leaving, entering; `crossings` counts them.
-struct Clipped {
-  Polygon part;
-  std::array<Vec3, 2> crossing;
-  int crossings = 0;
+/// The part of [a, b] within [low, high], weighted: mean(from, to) is the mean over that part.
+template <class Mean>
+Real share(Real a, Real b, Real low, Real high, const Mean& mean) {
+  const Real from = std::max(a, low), to = std::min(b, high);
+  return from < to ? (to - from) * mean(from, to) : 0;
+}
+
+template <std::size_t n>
+Levels<n> sorted(Levels<n> q) {
+  if (q[1] < q[0]) std::swap(q[0], q[1]);
+  if constexpr (n == 3) {
+    if (q[2] < q[1]) std::swap(q[1], q[2]);
+    if (q[1] < q[0]) std::swap(q[0], q[1]);
+  }
+  return q;
+}
+
+/// S of a facet: the area vector (2-D: length times the outward normal).
+template <int dim>
+Vec3 facet_area(std::span<const Vec3> x, const Polytope::Facet& f) {
+  const Vec3 a = x[f[1]] - x[f[0]];
+  if constexpr (dim == 2) return {a.y, -a.x, 0};
+  return 0.5 * cross(a, x[f[2]] - x[f[0]]);
+}
+
+/// A cell seen along a direction n: what the volume below a level is made of.
+///   V(s) = (1 / dim) sum over facets of a(s) (x . S - s n . S),  a = part of the facet below s,
+/// Gauss's theorem with the origin moved to a point of the plane, so that the cut adds nothing.
+template <int dim>
+struct Profile {
+  struct Item {
+    Levels<dim> q;
+    Real xS, nS;
+  };
+  int n_items = 0, n_levels = 0;
+  Real whole = 0;
+  std::array<Item, Polytope::max_facets> items;
+  std::array<Real, Polytope::max_points> levels;  // ascending, of all corners
+
+  Profile(const Polytope& cell, const Vec3& n) {
+    const auto x = cell.points();
+    for (const Vec3& point : x) levels[n_levels++] = dot(n, point);
+    for (const Polytope::Facet& f : cell.facets()) {
+      const Vec3 S = facet_area<dim>(x, f);
+      Levels<dim> q;
+      for (std::size_t i = 0; i < dim; ++i) q[i] = levels[f[i]];
+      items[n_items++] = {sorted(q), dot(x[f[0]], S), dot(n, S)};
+      whole += dot(x[f[0]], S) / dim;
+    }
+    std::sort(levels.begin(), levels.begin() + n_levels);
+  }
+
+  Real below(Real s) const {
+    Real sum = 0;
+    for (int i = 0; i < n_items; ++i) {
+      sum += part_below(items[i].q, s) * (items[i].xS - s * items[i].nS);
+    }
+    return sum / dim;
+  }
 };
 
-void clip(Clipped& out, const Polygon& face, const Vec3& n, Real s) {
-  out.part.n = 0;
-  out.crossings = 0;
-  const int last = face.n == 2 ? 1 : face.n;  // an edge is not closed
-  Real here = dot(n, face.x[0]) - s;
-  for (int i = 0; i < last; ++i) {
-    const Vec3 &a = face.x[i], &b = face.x[i + 1 == face.n ? 0 : i + 1];
-    const Real there = dot(n, b) - s;
-    if (here <= 0) out.part.x[out.part.n++] = a;
-    if ((here <= 0) != (there <= 0)) {
-      const Vec3 x = a + (here / (here - there)) * (b - a);
-      out.part.x[out.part.n++] = x;
-      // A face that is not convex can be crossed more often; the first two are kept.
-      if (out.crossings < 2) out.crossing[out.crossings++] = x;
+/// A cubic on [0, 1] by its values at 0, 1/3, 2/3, 1, in Newton's form
+///   y0 + t (c1 + (t - 1/3) (c2 + (t - 2/3) c3)).
+struct Cubic {
+  Real y0, c1, c2, c3;
+
+  explicit Cubic(const std::array<Real, 4>& y)
+      : y0(y[0]),
+        c1(3 * (y[1] - y[0])),
+        c2(4.5 * (y[2] - 2 * y[1] + y[0])),
+        c3(4.5 * (y[3] - 3 * y[2] + 3 * y[1] - y[0])) {}
+
+  Real value(Real t) const { return y0 + t * (c1 + (t - 1.0 / 3) * (c2 + (t - 2.0 / 3) * c3)); }
+  Real slope(Real t) const {
+    const Real inner = c2 + (t - 2.0 / 3) * c3;
+    return c1 + (t - 1.0 / 3) * inner + t * (inner + (t - 1.0 / 3) * c3);
+  }
+  /// The root, for one that rises from y(0) <= 0 to y(1) >= 0: Newton's steps held in the bracket.
+  Real root() const {
+    Real low = 0, high = 1, t = 0.5;
+    for (int i = 0; i < 60; ++i) {
+      const Real y = value(t);
+      (y < 0 ? low : high) = t;
+      const Real next = t - y / slope(t);
+      if (std::abs(next - t) < 1e-15) break;
+      t = next > low && next < high ? next : 0.5 * (low + high);
     }
-    here = there;
+    return t;
   }
-  if (face.n == 2 && here <= 0) out.part.x[out.part.n++] = face.x[1];
+};
+
+/// The level with V(s) = target: between two neighbouring corner levels V is a polynomial of degree
+/// dim: bisection over corners, interpolation, and Newton's steps on V itself.
+template <int dim>
+Real level_at(const Profile<dim>& profile, Real target) {
+  int low = 0, high = profile.n_levels - 1;
+  Real y_low = -target, y_high = profile.whole - target;
+  while (high - low > 1) {
+    const int mid = (low + high) / 2;
+    const Real y = profile.below(profile.levels[mid]) - target;
+    (y < 0 ? low : high) = mid;
+    (y < 0 ? y_low : y_high) = y;
+  }
+  const Real a = profile.levels[low], b = profile.levels[high], third = (b - a) / 3;
+  const Cubic cubic(
+      {y_low, profile.below(a + third) - target, profile.below(b - third) - target, y_high});
+  const Real t = cubic.root();
+  const Real slope = cubic.slope(t) / (b - a);
+  Real s = a + (b - a) * t;
+  for (int i = 0; i < 2 && slope > 0; ++i) {
+    const Real y = profile.below(s) - target;
+    if (std::abs(y) <= 2e-16 * profile.whole) break;
+    s = std::clamp(s - y / slope, a, b);
+  }
+  return s;
 }
 
-Real length_ratio(const Polygon& part, const Polygon& edge) {
-  return part.n < 2 ? 0 : norm(part.x[1] - part.x[0]) / norm(edge.x[1] - edge.x[0]);
+template <int dim>
+Plane plane_of(const Polytope& cell, const Vec3& n, Real fraction) {
+  const Profile<dim> profile(cell, n);
+  return {n, level_at(profile, fraction * profile.whole)};
 }
 
-/// Extremes of n . x over the corners.
-std::array<Real, 2> extent(const Cell& cell, const Vec3& n) {
-  std::array<Real, 2> e{1e300, -1e300};
-  for (int f = 0; f < cell.n; ++f)
-    for (int i = 0; i < cell.face[f].n; ++i) {
-      const Real s = dot(n, cell.face[f].x[i]);
-      e = {std::min(e[0], s), std::max(e[1], s)};
+/// Where the edge from a to b passes level s; qa and qb lie on different sides.
+Vec3 passing(const Vec3& a, const Vec3& b, Real qa, Real qb, Real s) {
+  return a + (s - qa) / (qb - qa) * (b - a);
+}
+
+/// 3-D: area = |sum (p - o) x (r - o)| / 2 over the segments (p, r) in which facets are cut, o any
+/// point of the plane; walked around an outward facet, r is where it leaves the part below.
+Cut cut_polyhedron(const Polytope& cell, const Plane& plane) {
+  const auto x = cell.points();
+  std::array<Real, Polytope::max_points> q;
+  for (std::size_t i = 0; i < x.size(); ++i) q[i] = dot(plane.n, x[i]);
+  bool started = false;
+  Vec3 origin, moment;
+  Real twice = 0;
+  for (const Polytope::Facet& f : cell.facets()) {
+    const int below = (q[f[0]] < plane.s) + (q[f[1]] < plane.s) + (q[f[2]] < plane.s);
+    if (below == 0 || below == 3) continue;
+    Vec3 enter, leave;
+    for (int i = 0; i < 3; ++i) {
+      const auto a = f[i], b = f[(i + 1) % 3];
+      if ((q[a] < plane.s) == (q[b] < plane.s)) continue;
+      (q[a] < plane.s ? leave : enter) = passing(x[a], x[b], q[a], q[b], plane.s);
     }
-  return e;
+    if (!started) origin = enter, started = true;
+    const Real area = dot(plane.n, cross(enter - origin, leave - origin));
+    twice += area;
+    moment += area * ((enter - origin) + (leave - origin));
+  }
+  if (!(twice > 0)) return {};
+  return {twice / 2, origin + moment / (3 * twice)};
 }
 
-/// Sorted values of n . x at the corners, equal ones once.
-int sorted_corners(std::array<Real, Cell::capacity * Polygon::capacity>& value, const Cell& cell,
-                   const Vec3& n, Real tolerance) {
-  int count = 0;
-  for (int f = 0; f < cell.n; ++f)
-    for (int i = 0; i < cell.face[f].n; ++i) value[count++] = dot(n, cell.face[f].x[i]);
-  std::sort(value.begin(), value.begin() + count);
-  int kept = 1;
-  for (int i = 1; i < count; ++i)
-    if (value[i] - value[kept - 1] > tolerance) value[kept++] = value[i];
-  return kept;
-}
-
-/// Centroid and area of the plane's polygon from the segments in which it crosses the faces.
-void set_polygon(Cut& cut, const Cell& cell, const Vec3& n) {
-  std::array<std::array<Vec3, 2>, Cell::capacity> segment;
-  int count = 0;
-  Clipped clipped;
-  Vec3 mean;
-  for (int f = 0; f < cell.n; ++f) {
-    clip(clipped, cell.face[f], n, cut.s);
-    if (cell.dim == 2 && clipped.crossings == 1)
-      segment[count++] = {clipped.crossing[0], clipped.crossing[0]};
-    if (cell.dim == 3 && clipped.crossings == 2) segment[count++] = clipped.crossing;
+/// 2-D: along the tangent t of the cut, length = sum of t where edges lead into the part below less
+/// the sum where they lead out of it.
+Cut cut_polygon(const Polytope& cell, const Plane& plane) {
+  const auto x = cell.points();
+  const Vec3 tangent{-plane.n.y, plane.n.x, 0};
+  Real length = 0, moment = 0;
+  for (const Polytope::Facet& f : cell.facets()) {
+    const Vec3 &a = x[f[0]], &b = x[f[1]];
+    const Real qa = dot(plane.n, a), qb = dot(plane.n, b);
+    if ((qa < plane.s) == (qb < plane.s)) continue;
+    const Real t = dot(tangent, passing(a, b, qa, qb, plane.s));
+    const Real sign = qa < plane.s ? -1 : 1;
+    length += sign * t;
+    moment += sign * t * t / 2;
   }
-  if (count == 0) return;
-  for (int i = 0; i < count; ++i) mean += 0.5 * (segment[i][0] + segment[i][1]);
-  mean *= 1.0 / count;
-  cut.centre = mean;
-  if (cell.dim == 2) {
-    cut.area = count == 2 ? norm(segment[1][0] - segment[0][0]) : 0;
-    return;
-  }
-  Vec3 moment;
-  Real area = 0;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 a = segment[i][0] - mean, b = segment[i][1] - mean;
-    const Real t = std::abs(dot(cross(a, b), n)) / 2;
-    area += t;
-    moment += (t / 3) * (a + b);
-  }
-  cut.area = area;
-  if (area > 0) cut.centre = mean + moment / area;
+  if (!(length > 0)) return {};
+  return {length, plane.s * plane.n + moment / length * tangent};
 }
 
 }  // namespace
 
-void add_face(Cell& cell, const Polygon& face, const Vec3& outward) {
-  const auto push = [&](const Polygon& p) {
-    FSI_ASSERT(cell.n < Cell::capacity);
-    cell.face[cell.n] = p;
-    cell.area[cell.n++] = outward;
+Real mean_part_below(const Levels<2>& q, Real s0, Real s1) {
+  const Real a = std::min(s0, s1), b = std::max(s0, s1);
+  if (!(a < b)) return part_below(q, s0);
+  const Real rising = share(a, b, q[0], q[1], [&](Real from, Real to) {
+    return ((from - q[0]) / (q[1] - q[0]) + (to - q[0]) / (q[1] - q[0])) / 2;
+  });
+  const Real full = share(a, b, q[1], b, [](Real, Real) { return Real{1}; });
+  return std::min(Real{1}, (rising + full) / (b - a));
+}
+
+Real mean_part_below(const Levels<3>& q, Real s0, Real s1) {
+  const Real a = std::min(s0, s1), b = std::max(s0, s1);
+  if (!(a < b)) return part_below(q, s0);
+  const Real first = share(a, b, q[0], q[1], [&](Real from, Real to) {
+    const Real d = q[1] - q[0];
+    return mean_square(from - q[0], to - q[0], d) * (d / (q[2] - q[0]));
+  });
+  const Real second = share(a, b, q[1], q[2], [&](Real from, Real to) {
+    const Real d = q[2] - q[1];
+    return 1 - mean_square(q[2] - to, q[2] - from, d) * (d / (q[2] - q[0]));
+  });
+  const Real full = share(a, b, q[2], b, [](Real, Real) { return Real{1}; });
+  return std::min(Real{1}, (first + second + full) / (b - a));
+}
+
+void Polytope::add_face(std::span<const Vec3> corners, bool reversed) {
+  const int n = static_cast<int>(corners.size());
+  const bool fan = n > 3;
+  if (n_points_ + n + (fan ? 1 : 0) > max_points || n_facets_ + (fan ? n : 1) > max_facets) {
+    throw Error(Kind::internal, "geometry::Polytope: more than " + std::to_string(max_facets) +
+                                    " facets in a cell");
+  }
+  const int first = n_points_;
+  const auto corner = [&](int i) {
+    return static_cast<std::uint8_t>(first + (reversed ? n - 1 - i % n : i % n));
   };
-  if (cell.dim == 2 || face.n == 3) return push(face);
-  Vec3 mean;
-  for (int i = 0; i < face.n; ++i) mean += face.x[i];
-  mean *= 1.0 / face.n;
-  const Vec3 n = outward / norm(outward);
-  Real off = 0;
-  for (int i = 0; i < face.n; ++i) off = std::max(off, std::abs(dot(face.x[i] - mean, n)));
-  if (off * off < 1e-24 * norm(outward)) return push(face);
-  for (int i = 0; i < face.n; ++i) {
-    Polygon triangle;
-    triangle.n = 3;
-    triangle.x[0] = face.x[i], triangle.x[1] = face.x[(i + 1) % face.n], triangle.x[2] = mean;
-    push(triangle);
+  Vec3 sum;
+  for (const Vec3& x : corners) points_[n_points_++] = x, sum += x;
+  if (!fan) {
+    facets_[n_facets_++] = {corner(0), corner(1), corner(2)};
+    return;
   }
+  const auto centre = static_cast<std::uint8_t>(n_points_);
+  points_[n_points_++] = sum / n;
+  for (int i = 0; i < n; ++i) facets_[n_facets_++] = {centre, corner(i), corner(i + 1)};
 }
 
-Real volume_below(const Cell& cell, const Vec3& n, Real s) {
-  // V = (1/dim) sum_f (x_f - x_0) . A_f over the clipped faces, x_0 on the plane
-  const Vec3 x_0 = s * n;
-  Clipped clipped;
+Real measure(const Polytope& cell) {
+  const auto x = cell.points();
   Real sum = 0;
-  for (int f = 0; f < cell.n; ++f) {
-    clip(clipped, cell.face[f], n, s);
-    const Polygon& part = clipped.part;
-    if (part.n < 2) continue;
-    const Vec3 area =
-        cell.dim == 2 ? length_ratio(part, cell.face[f]) * cell.area[f] : 0.5 * double_area(part);
-    sum += dot(part.x[0] - x_0, area);
+  for (const Polytope::Facet& f : cell.facets()) {
+    sum += dot(x[f[0]], cell.dim() == 2 ? facet_area<2>(x, f) : facet_area<3>(x, f));
   }
-  return sum / cell.dim;
+  return sum / cell.dim();
 }
 
-Cut cut_at_fraction(const Cell& cell, const Vec3& n, Real alpha) {
-  const auto [low_s, high_s] = extent(cell, n);
-  const Real V = volume_below(cell, n, high_s + (high_s - low_s)), target = alpha * V;
-  std::array<Real, Cell::capacity * Polygon::capacity> corner{};
-  const int count = sorted_corners(corner, cell, n, 1e-13 * (high_s - low_s));
-  int a = 0, b = count - 1;
-  Real V_a = 0, V_b = V;
-  while (b - a > 1) {
-    const int middle = (a + b) / 2;
-    const Real v = volume_below(cell, n, corner[middle]);
-    (v <= target ? a : b) = middle;
-    (v <= target ? V_a : V_b) = v;
-  }
-  // Between two corners V(s) is a cubic (2-D: a parabola): Newton's divided differences through
-  // four points give it exactly; then a bracketed root.
-  const Real h = corner[b] - corner[a];
-  const Real v1 = volume_below(cell, n, corner[a] + h / 3) - V_a;
-  const Real v2 = volume_below(cell, n, corner[a] + 2 * h / 3) - V_a;
-  const Real v3 = V_b - V_a, t = target - V_a;
-  const Real c1 = 9 * v1 - 4.5 * v2 + v3, c2 = -22.5 * v1 + 18 * v2 - 4.5 * v3,
-             c3 = 13.5 * v1 - 13.5 * v2 + 4.5 * v3;
-  Real low = 0, high = 1, x = v3 > 0 ? std::clamp(t / v3, 0.0, 1.0) : 0.5;
-  for (int i = 0; i < 60; ++i) {
-    const Real value = x * (c1 + x * (c2 + x * c3)) - t;
-    (value > 0 ? high : low) = x;
-    const Real slope = c1 + x * (2 * c2 + 3 * c3 * x);
-    Real next = slope > 0 ? x - value / slope : -1;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) < 1e-15) break;
-    x = next;
-  }
-  Cut cut;
-  cut.s = corner[a] + x * h;
-  set_polygon(cut, cell, n);
-  if (cut.area == 0) cut.centre = cut.s * n;
-  return cut;
+Real measure_below(const Polytope& cell, const Plane& plane) {
+  return cell.dim() == 2 ? Profile<2>(cell, plane.n).below(plane.s)
+                         : Profile<3>(cell, plane.n).below(plane.s);
 }
 
-Real part_below(const Polygon& face, const Vec3& n, Real s) {
-  Clipped clipped;
-  clip(clipped, face, n, s);
-  if (face.n == 2) return length_ratio(clipped.part, face);
-  const Vec3 whole = double_area(face);
-  return clipped.part.n < 3 ? 0 : dot(double_area(clipped.part), whole) / norm2(whole);
+Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction) {
+  const bool flip = fraction > 0.5;  // the smaller part has the smaller error
+  const Vec3 along = flip ? -n : n;
+  const Real part = flip ? 1 - fraction : fraction;
+  const Plane plane =
+      cell.dim() == 2 ? plane_of<2>(cell, along, part) : plane_of<3>(cell, along, part);
+  return {n, flip ? -plane.s : plane.s};
 }
 
-Real mean_part_below(const Polygon& face, const Vec3& n, Real s, Real speed, Real dt) {
-  std::array<Real, Polygon::capacity + 2> at;
-  Real low = 1e300, high = -1e300;
-  for (int i = 0; i < face.n; ++i) {
-    at[i] = dot(n, face.x[i]);
-    low = std::min(low, at[i]), high = std::max(high, at[i]);
-  }
-  const Real s_end = s + speed * dt, from = std::min(s, s_end), to = std::max(s, s_end);
-  if (from >= high) return 1;
-  if (to <= low) return 0;
-  if (to - from <= 1e-12 * (high - low) || high == low)
-    return part_below(face, n, 0.5 * (s + s_end));
-  int count = 0;
-  std::array<Real, Polygon::capacity + 2> knot;
-  knot[count++] = from;
-  std::sort(at.begin(), at.begin() + face.n);
-  for (int i = 0; i < face.n; ++i)
-    if (at[i] > from && at[i] < to) knot[count++] = at[i];
-  knot[count++] = to;
-  Real sum = 0, left = part_below(face, n, from);
-  for (int i = 1; i < count; ++i) {
-    const Real middle = part_below(face, n, 0.5 * (knot[i - 1] + knot[i]));
-    const Real right = part_below(face, n, knot[i]);
-    sum += (knot[i] - knot[i - 1]) / 6 * (left + 4 * middle + right);
-    left = right;
-  }
-  return sum / (to - from);
+Cut cut(const Polytope& cell, const Plane& plane) {
+  return cell.dim() == 2 ? cut_polygon(cell, plane) : cut_polyhedron(cell, plane);
 }
 
 }  // namespace fsi::geometry

@@ -1,54 +1,85 @@
 #pragma once
-// A cell cut by a plane: volumes, the plane of a given fraction, the cut itself; a face swept by a
-// moving plane. Pure functions.
+// Parts of segments and triangles below a level, and a polygon or polyhedron cut by a plane.
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "libfsi/core/types.hpp"
 
 namespace fsi::geometry {
 
-/// A flat face: corners in order, right-handed about its outward area vector. 2-D: the two ends.
-struct Polygon {
-  static constexpr int capacity = 10;
-  std::array<Vec3, capacity> x;
-  int n = 0;
+/// Corner values of a segment (2) or triangle (3) in ascending order: a linear function on it.
+template <std::size_t n>
+using Levels = std::array<Real, n>;
+
+/// Part of the segment or triangle, in [0, 1], where the function is below s. No cancellation.
+inline Real part_below(const Levels<2>& q, Real s) {
+  return s <= q[0] ? 0 : s >= q[1] ? 1 : (s - q[0]) / (q[1] - q[0]);
+}
+inline Real part_below(const Levels<3>& q, Real s) {
+  // s < q1: (s - q0)^2 / ((q1 - q0) (q2 - q0)); beyond: 1 - (q2 - s)^2 / ((q2 - q0) (q2 - q1))
+  if (s <= q[0]) return 0;
+  if (s >= q[2]) return 1;
+  if (s <= q[1]) return (s - q[0]) / (q[1] - q[0]) * ((s - q[0]) / (q[2] - q[0]));
+  return 1 - (q[2] - s) / (q[2] - q[0]) * ((q[2] - s) / (q[2] - q[1]));
+}
+
+/// Mean of part_below over the levels between s0 and s1 (any order; the value at s0 where they are
+/// equal): the share of a time step for which a face lies behind a plane that moves evenly.
+/// Exact, piece by piece between the passing of corners, without cancellation.
+Real mean_part_below(const Levels<2>& q, Real s0, Real s1);
+Real mean_part_below(const Levels<3>& q, Real s0, Real s1);
+
+/// The plane n . x = s, n of unit length; below it n . x < s.
+struct Plane {
+  Vec3 n;
+  Real s = 0;
 };
 
-/// A cell as its faces. Invariant: the faces are closed, flat and outward. 2-D: edges in the plane
-/// z = 0 with `area` their outward normal times length; 3-D: `area` is unused.
-struct Cell {
-  static constexpr int capacity = 26;
-  std::array<Polygon, capacity> face;
-  std::array<Vec3, capacity> area;
-  int n = 0;
-  int dim = 3;
-};
-
-/// Appends a face; a 3-D face of more than three corners that is not flat is divided into triangles
-/// about the mean of its corners.
-void add_face(Cell& cell, const Polygon& face, const Vec3& outward);
-
-/// Volume (2-D: area) of the part of the cell where n . x <= s; n is a unit vector.
-/// By the divergence theorem about a point of the plane, so that the cut does not enter.
-Real volume_below(const Cell& cell, const Vec3& n, Real s);
-
-/// A plane n . x = s in a cell: its centroid and area (2-D: length) inside.
+/// Where a plane cuts a cell: area (length in 2-D) and centroid.
 struct Cut {
-  Real s = 0, area = 0;
+  Real area = 0;
   Vec3 centre;
 };
 
-/// The plane of unit normal n that leaves the fraction alpha in (0, 1) of the cell's volume V where
-/// n . x <= s. |V(s) - alpha V| <= 1e-13 V.
-Cut cut_at_fraction(const Cell& cell, const Vec3& n, Real alpha);
+/// A polygon (2-D, in the plane z = 0) or polyhedron, given by its boundary: segments or triangles
+/// that face outward. Faces with more than three corners are divided about the mean of their
+/// corners, so warped ones fit their neighbours'. Invariant: at most max_points corners and
+/// max_facets facets; larger cells are refused by an Error{internal}. Coordinates should be small:
+/// relative to the cell.
+class Polytope {
+ public:
+  static constexpr int max_points = 96, max_facets = 96;
 
-/// Part (0 to 1) of a face where n . x <= s.
-Real part_below(const Polygon& face, const Vec3& n, Real s);
+  explicit Polytope(int dim = 3) : dim_(dim) {}
+  void clear() { n_points_ = n_facets_ = 0; }
+  /// A face with its corners right-handed about the outward normal (2-D: ends of an edge, the cell
+  /// on its left); reversed: about the inward one.
+  void add_face(std::span<const Vec3> corners, bool reversed);
 
-/// Mean over the time dt of the part of the face where n . x <= s + speed t: exact, by Simpson's
-/// rule between the passages of the corners, where the part is a polynomial of at most second
-/// degree.
-Real mean_part_below(const Polygon& face, const Vec3& n, Real s, Real speed, Real dt);
+  int dim() const { return dim_; }
+  std::span<const Vec3> points() const { return {points_.data(), std::size_t(n_points_)}; }
+  using Facet = std::array<std::uint8_t, 3>;  // corner numbers; the first two in 2-D
+  std::span<const Facet> facets() const { return {facets_.data(), std::size_t(n_facets_)}; }
+
+ private:
+  int dim_, n_points_ = 0, n_facets_ = 0;
+  std::array<Vec3, max_points> points_;
+  std::array<Facet, max_facets> facets_;
+};
+
+/// Area or volume.
+Real measure(const Polytope& cell);
+
+/// Area or volume below the plane; its error is a few units of round-off of the cell's.
+Real measure_below(const Polytope& cell, const Plane& plane);
+
+/// The plane of normal n (unit) with the part `fraction` in (0, 1) of the cell below it, to a few
+/// units of round-off. Each side serves alike: n, fraction and -n, 1 - fraction give one plane.
+Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction);
+
+/// The cut through the cell; its area is zero where the plane misses it.
+Cut cut(const Polytope& cell, const Plane& plane);
 
 }  // namespace fsi::geometry

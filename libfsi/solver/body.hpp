@@ -20,27 +20,27 @@ struct Body {
       : alpha(mesh),
         Bt(mesh),
         interface(mesh),
-        reconstruct(mesh),
-        advect(mesh),
+        reconstruct_scratch(mesh),
+        advect_scratch(mesh),
         band(mesh),
         kinematics(mesh),
         law(mesh, G),
         filled(vof::fill(alpha, mesh, shape)) {
     solid::set_undeformed(Bt, alpha, mesh);
     band.rebuild(alpha, solid::alpha_min);
-    reconstruct(interface, alpha);
+    vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
   }
 
   CellField<Real> alpha;     ///< volume fraction of the solid
   CellField<SymTensor> Bt;   ///< alpha^(1/2) B
   vof::Interface interface;  ///< planes of alpha
-  vof::Reconstruct reconstruct;
-  vof::Advect advect;
+  vof::ReconstructScratch reconstruct_scratch;
+  vof::AdvectScratch advect_scratch;
   Band band;  ///< of alpha >= alpha_min
   solid::LeftCauchyGreen kinematics;
   solid::NeoHookean law;
-  vof::Filled filled;      ///< volume and its error at the start
-  vof::Advected advected;  ///< of the last step
+  vof::Filled filled;          ///< volume and its error at the start
+  vof::AdvectReport advected;  ///< of the last step
 };
 
 }  // namespace fsi

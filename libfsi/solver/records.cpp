@@ -146,7 +146,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   row.push_back({"det_B_min", h.det_min});
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
-  row.push_back({"overshoot", body.advected.overshoot});
+  row.push_back({"overshoot", body.advected.remaining});
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

@@ -20,12 +20,11 @@ void Solver::list(io::Snapshot& snapshot) {
   if (!body_) return;
   snapshot.add("alpha", body_->alpha);
   snapshot.add("Bt", body_->Bt);
-  snapshot.add("normal", body_->interface.normal);
 }
 
 void Solver::resume() {
   if (!body_) return;
-  body_->reconstruct.renew(body_->interface, body_->alpha);
+  vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
   body_->band.rebuild(body_->alpha, solid::alpha_min);
 }
 

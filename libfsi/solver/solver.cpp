@@ -109,8 +109,9 @@ void Solver::update_gradients() {
 
 void Solver::advance_interface(Real dt) {
   const Profile::Phase phase(profile_, vof_phase_);
-  body_->advected = body_->advect(body_->alpha, body_->interface, state_.phi, state_.u, L_, dt);
-  body_->reconstruct(body_->interface, body_->alpha);
+  body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u, dt, mesh_,
+                                body_->advect_scratch);
+  vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
 }
 
 void Solver::transport_elastic(Real dt) {

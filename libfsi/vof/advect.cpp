@@ -1,140 +1,235 @@
 #include "libfsi/vof/advect.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/geometry/cut.hpp"
+#include "libfsi/vof/stencil.hpp"
 
 namespace fsi::vof {
+namespace {
 
-Advect::Advect(const Mesh& mesh)
-    : mesh_(mesh),
-      speed_(mesh),
-      volume_(mesh),
-      received_(mesh),
-      face_stamp_(static_cast<std::size_t>(mesh.n_faces), 0),
-      cell_stamp_(static_cast<std::size_t>(mesh.n_cells), 0) {
-  for (Index f = 0; f < mesh.n_internal; ++f)
-    if (mesh.owner[f] >= mesh.n_owned || mesh.neighbour[f] >= mesh.n_owned)
-      between_ranks_.push_back(f);
+constexpr Real bound = 1e-13;    // excess that redistribution leaves
+constexpr Real wisp = 1e-12;     // fractions this close to 0 or 1 become 0 or 1
+constexpr int max_rounds = 100;  // each carries an excess one cell further
+
+enum Mark : std::uint8_t { none = 0, active = 1, inside = 2 };
+
+bool is_whole(Real alpha) { return alpha == 0 || alpha == 1; }
+
+/// Value beyond face f from cell c; a boundary face has none: its cell's own.
+Index beyond(const Mesh& mesh, Index f, Index c) {
+  if (f >= mesh.n_internal) return c;
+  return mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f];
 }
 
-Advected Advect::operator()(CellField<Real>& alpha, const Interface& interface,
-                            const FaceField<Real>& phi, const CellField<Vec3>& u,
-                            const CellField<Tensor>& L, Real dt) {
-  set_speed(interface, u, L);
-  list_faces(alpha);
-  set_fluxes(alpha, interface, phi, dt);
-  apply(alpha);
-  constexpr int most = 10;
-  constexpr Real tolerance = 1e-12;
-  Advected result;
-  for (result.overshoot = worst(alpha); result.overshoot > tolerance && result.passes < most;
-       ++result.passes) {
-    redistribute(alpha, phi, dt);
-    result.overshoot = worst(alpha);
-  }
-  return result;
+/// +1 where the face's normal leaves c, -1 where it enters.
+Real sign(const Mesh& mesh, Index f, Index c) { return mesh.owner[f] == c ? 1 : -1; }
+
+/// The cell the flux comes from; -1 at an inflow boundary.
+Index upwind(const Mesh& mesh, Index f, Real flux) {
+  if (flux >= 0) return mesh.owner[f];
+  return f < mesh.n_internal ? mesh.neighbour[f] : -1;
 }
 
-void Advect::set_speed(const Interface& interface, const CellField<Vec3>& u,
-                       const CellField<Tensor>& L) {
-  // U_n = n . (u_c + L . (x_s - x_c))
-  for (const Index c : interface.cells)
-    speed_[c] = dot(interface.normal[c], u[c] + dot(L[c], interface.centre[c]));
-  mesh_.halo.update(speed_);
+void clear(AdvectScratch& s) {
+  for (const Index f : s.faces) s.face_marked[f] = none, s.solid[f] = 0;
+  for (const Index f : s.full) s.face_marked[f] = none, s.solid[f] = 0;
+  for (const Index c : s.cells) s.cell_marked[c] = 0;
+  s.faces.clear(), s.full.clear(), s.cells.clear();
 }
 
-void Advect::list_faces(const CellField<Real>& alpha) {
-  faces_.clear();
-  cells_.clear();
-  ++calls_;
-  const auto list = [&](Index c) {
-    if (c >= mesh_.n_owned || cell_stamp_[c] == calls_) return;
-    cell_stamp_[c] = calls_;
-    cells_.push_back(c);
-  };
-  const auto list_face = [&](Index f) {
-    if (face_stamp_[f] == calls_) return;
-    face_stamp_[f] = calls_;
-    faces_.push_back(f);
-    list(mesh_.owner[f]);
-    if (f < mesh_.n_internal) list(mesh_.neighbour[f]);
-  };
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    if (alpha[c] > 0)
-      for (const Index f : mesh_.cell_faces[c]) list_face(f);
-  for (const Index f : between_ranks_)
-    if (alpha[mesh_.owner[f]] > 0 || alpha[mesh_.neighbour[f]] > 0) list_face(f);
+void mark_face(Index f, Real a, Real b, bool boundary, AdvectScratch& s) {
+  if (s.face_marked[f] != none) return;
+  const bool trivial = a == b && is_whole(a) && !(boundary && a == 1);
+  if (trivial && a == 0) return;
+  s.face_marked[f] = trivial ? inside : active;
+  (trivial ? s.full : s.faces).push_back(f);
 }
 
-void Advect::set_fluxes(const CellField<Real>& alpha, const Interface& interface,
-                        const FaceField<Real>& phi, Real dt) {
-  geometry::Polygon face;
-  for (const Index f : faces_) {
-    const bool internal = f < mesh_.n_internal;
-    const Index up = phi[f] >= 0 || !internal ? mesh_.owner[f] : mesh_.neighbour[f];
-    volume_[f] = 0;
-    if (!internal && phi[f] <= 0) continue;  // nothing but fluid comes in
-    Real part = alpha[up];
-    if (norm2(interface.normal[up]) > 0) {
-      gather(face, mesh_, f, up);
-      const Vec3& n = interface.normal[up];
-      part = geometry::mean_part_below(face, n, dot(n, interface.centre[up]), speed_[up], dt);
+/// Faces with solid on a side, then the owned cells of those that are not between full cells.
+void find_faces(const CellField<Real>& alpha, const Mesh& mesh, AdvectScratch& s) {
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (alpha[c] == 0) continue;
+    for (const Index f : mesh.cell_faces[c]) {
+      mark_face(f, alpha[c], alpha[beyond(mesh, f, c)], f >= mesh.n_internal, s);
     }
-    volume_[f] = phi[f] * part * dt;
   }
-}
-
-void Advect::apply(CellField<Real>& alpha) {
-  for (const Index c : cells_) received_[c] = 0;
-  for (const Index f : faces_) {
-    received_[mesh_.owner[f]] -= volume_[f];
-    if (f < mesh_.n_internal) received_[mesh_.neighbour[f]] += volume_[f];
+  for (const Index f : s.rim) {
+    mark_face(f, alpha[mesh.owner[f]], alpha[mesh.neighbour[f]], false, s);
   }
-  for (const Index c : cells_) alpha[c] += received_[c] / mesh_.V[c];
-  mesh_.halo.update(alpha);
-}
-
-Real Advect::worst(const CellField<Real>& alpha) const {
-  Real far = 0;
-  for (const Index c : cells_) far = std::max({far, -alpha[c], alpha[c] - 1});
-  return global_max(far);
-}
-
-void Advect::redistribute(CellField<Real>& alpha, const FaceField<Real>& phi, Real dt) {
-  received_.fill(0);
-  for (const Index c : cells_) {
-    if (alpha[c] > 1) pass_on(c, (alpha[c] - 1) * mesh_.V[c], true, phi, dt);
-    if (alpha[c] < 0) pass_on(c, -alpha[c] * mesh_.V[c], false, phi, dt);
-  }
-  mesh_.halo.add_to_owner(received_.data(), 1);
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    if (received_[c] != 0) alpha[c] += received_[c] / mesh_.V[c];
-  mesh_.halo.update(alpha);
-}
-
-void Advect::pass_on(Index c, Real excess, bool solid, const FaceField<Real>& phi, Real dt) {
-  // Room of an outflow face: what it carries of the other phase in this step.
-  const auto outflow = [&](Index f) { return (mesh_.owner[f] == c ? phi[f] : -phi[f]) * dt; };
-  const auto room = [&](Index f) {
-    const Real out = outflow(f);
-    if (out <= 0 || f >= mesh_.n_internal) return 0.0;
-    const Real carried = face_stamp_[f] == calls_ ? std::abs(volume_[f]) : 0;
-    return std::max(0.0, solid ? out - carried : carried);
+  const auto add = [&](Index c) {
+    if (c < mesh.n_owned && !s.cell_marked[c]) s.cell_marked[c] = 1, s.cells.push_back(c);
   };
-  Real rooms = 0;
-  for (const Index f : mesh_.cell_faces[c]) rooms += room(f);
-  // Where outflow has no room left the rest stays for the next pass or step.
-  const Real share = rooms > excess ? excess / rooms : 1;
-  for (const Index f : mesh_.cell_faces[c]) {
-    const Real moved = share * room(f) * (solid ? 1 : -1);
-    if (moved == 0) continue;
-    const bool owner = mesh_.owner[f] == c;
-    if (face_stamp_[f] == calls_) volume_[f] += owner ? moved : -moved;
-    received_[c] -= moved;
-    received_[owner ? mesh_.neighbour[f] : mesh_.owner[f]] += moved;
+  for (const Index f : s.faces) {
+    add(mesh.owner[f]);
+    if (f < mesh.n_internal) add(mesh.neighbour[f]);
   }
+}
+
+/// U_n = n . u at the centre of the plane.
+void interface_speed(const Interface& interface, const CellField<Vec3>& u, const Mesh& mesh,
+                     AdvectScratch& s) {
+  for (const Index c : interface.cells) {
+    const Piece& p = interface.piece[c];
+    const Tensor L = gradient_at(u, least_squares(mesh, c), mesh, c);
+    s.speed[c] = dot(p.n_hat, u[c] + dot(L, p.centre - mesh.C[c]));
+  }
+  mesh.halo.update(s.speed);
+}
+
+/// Mean over a step of the part of face f behind the plane of cell c, which moves by `distance`.
+Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real distance) {
+  const auto n = static_cast<Index>(mesh.face_points[f].size());
+  const auto corner = [&](Index i) { return mesh.corner(f, i % n, c) - p.centre; };
+  if (n == 2) {
+    geometry::Levels<2> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1))};
+    std::ranges::sort(q);
+    return geometry::mean_part_below(q, 0, distance);
+  }
+  if (n == 3) {
+    geometry::Levels<3> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1)),
+                          dot(p.n_hat, corner(2))};
+    std::ranges::sort(q);
+    return geometry::mean_part_below(q, 0, distance);
+  }
+  Vec3 middle;
+  for (Index i = 0; i < n; ++i) middle += corner(i);
+  middle = middle / n;
+  Real sum = 0, whole = 0;
+  for (Index i = 0; i < n; ++i) {
+    const Vec3 a = corner(i), b = corner(i + 1);
+    const Real area = norm(cross(a - middle, b - middle));
+    geometry::Levels<3> q{dot(p.n_hat, middle), dot(p.n_hat, a), dot(p.n_hat, b)};
+    std::ranges::sort(q);
+    sum += area * geometry::mean_part_below(q, 0, distance);
+    whole += area;
+  }
+  return sum / whole;
+}
+
+void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
+                  const FaceField<Real>& phi, Real dt, const Mesh& mesh, AdvectScratch& s) {
+  for (const Index f : s.full) s.solid[f] = phi[f] * dt;
+  for (const Index f : s.faces) {
+    const Real v = phi[f] * dt;
+    const Index c = upwind(mesh, f, v);
+    if (c < 0) {
+      s.solid[f] = 0;
+      continue;
+    }
+    const Piece& p = interface.piece[c];
+    // dV = phi integral over dt of A(t) / A   [Roenby16]
+    s.solid[f] = v * (p.area > 0 ? swept_part(mesh, f, c, p, s.speed[c] * dt)
+                                 : std::clamp(alpha[c], Real{0}, Real{1}));
+  }
+}
+
+/// alpha after the step: alpha V <- alpha V - sum sigma (dV - alpha phi dt). The second part takes
+/// the divergence of phi out: inside the solid nothing changes, whatever div phi is.
+Real updated(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt, const Mesh& mesh,
+             const AdvectScratch& s, Index c) {
+  Real sum = 0;
+  for (const Index f : mesh.cell_faces[c]) {
+    sum += sign(mesh, f, c) * (s.solid[f] - alpha[c] * (phi[f] * dt));
+  }
+  return alpha[c] - sum / mesh.V[c];
+}
+
+/// The share of its outflow by which cell c must change to come back from value a into [0, 1]:
+/// positive of what more can leave, negative of what leaves.
+Real needed_share(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const AdvectScratch& s,
+                  Index c, Real a) {
+  const bool over = a > 1;
+  Real capacity = 0;
+  for (const Index f : mesh.cell_faces[c]) {
+    const Real v = phi[f] * dt;
+    if (upwind(mesh, f, v) != c) continue;
+    capacity += over ? std::abs(v) - std::abs(s.solid[f]) : std::abs(s.solid[f]);
+  }
+  const Real excess = (over ? a - 1 : -a) * mesh.V[c];
+  if (!(capacity > 0)) return 0;
+  return (over ? 1 : -1) * std::min(Real{1}, excess / capacity);
+}
+
+/// Redistribution in the spirit of [Roenby16] 3.4: as a share of each outflow, so that both ranks
+/// of a face compute the same.
+void redistribute(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt,
+                  const Mesh& mesh, AdvectScratch& s, AdvectReport& report) {
+  for (;; ++report.rounds) {
+    Real worst = 0;
+    for (const Index c : s.cells) {
+      const Real a = updated(alpha, phi, dt, mesh, s, c);
+      const Real excess = std::max(a - 1, -a);
+      worst = std::max(worst, excess);
+      s.share[c] = excess > bound ? needed_share(phi, dt, mesh, s, c, a) : 0;
+    }
+    report.remaining = global_max(worst);
+    if (report.rounds == 0) report.overshoot = report.remaining;
+    if (report.remaining <= bound || report.rounds == max_rounds) break;
+    mesh.halo.update(s.share);
+    for (const Index f : s.faces) {
+      const Real v = phi[f] * dt;
+      const Index c = upwind(mesh, f, v);
+      if (c < 0) continue;
+      const Real share = s.share[c];
+      s.solid[f] += share > 0 ? share * (v - s.solid[f]) : share * s.solid[f];
+    }
+  }
+  for (const Index c : s.cells) s.share[c] = 0;
+}
+
+/// Volume that taking out the divergence adds: sum over cells of alpha sum sigma phi dt, which by
+/// Gauss's theorem needs the faces with different alpha only.
+void add_divergence(Sum& sum, const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt,
+                    const Mesh& mesh, const AdvectScratch& s) {
+  for (const Index f : s.faces) {
+    const Index P = mesh.owner[f];
+    if (P >= mesh.n_owned) continue;  // the other rank counts it
+    const Real beyond_it = f < mesh.n_internal ? alpha[mesh.neighbour[f]] : 0;
+    sum.add(phi[f] * dt * (alpha[P] - beyond_it));
+  }
+}
+
+}  // namespace
+
+AdvectScratch::AdvectScratch(const Mesh& mesh)
+    : solid(mesh),
+      face_marked(static_cast<std::size_t>(mesh.n_faces), none),
+      cell_marked(static_cast<std::size_t>(mesh.n_owned), 0),
+      speed(mesh),
+      share(mesh) {
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    if (mesh.owner[f] >= mesh.n_owned || mesh.neighbour[f] >= mesh.n_owned) rim.push_back(f);
+  }
+}
+
+AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const FaceField<Real>& phi,
+                    const CellField<Vec3>& u, Real dt, const Mesh& mesh, AdvectScratch& s) {
+  clear(s);
+  find_faces(alpha, mesh, s);
+  interface_speed(interface, u, mesh, s);
+  solid_fluxes(alpha, interface, phi, dt, mesh, s);
+  AdvectReport report;
+  redistribute(alpha, phi, dt, mesh, s, report);
+
+  std::array<Sum, 2> sums;  // volume added, weight of those who give it back
+  add_divergence(sums[0], alpha, phi, dt, mesh, s);
+  for (const Index c : s.cells) {
+    const Real a = updated(alpha, phi, dt, mesh, s, c);
+    alpha[c] = std::abs(a) < wisp ? 0 : std::abs(a - 1) < wisp ? 1 : a;
+    sums[0].add((alpha[c] - a) * mesh.V[c]);
+    sums[1].add(mesh.V[c] * alpha[c] * (1 - alpha[c]));
+  }
+  std::array<Real, 2> totals{};
+  Sum::totals(totals, sums);
+  report.returned = std::abs(totals[0]);
+  const Real factor = totals[1] > 0 ? std::clamp(-totals[0] / totals[1], Real{-1}, Real{1}) : 0;
+  for (const Index c : s.cells) alpha[c] += factor * alpha[c] * (1 - alpha[c]);
+  mesh.halo.update(alpha);
+  return report;
 }
 
 }  // namespace fsi::vof

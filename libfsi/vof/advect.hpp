@@ -1,54 +1,48 @@
 #pragma once
-// isoAdvector: geometric transport of the volume fraction on any cells [Roenby16].
+// The solid's volume fraction carried by the flux, cut from the planes of the interface.
 
+#include <cstdint>
 #include <vector>
 
-#include "libfsi/vof/interface.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/mesh/mesh.hpp"
+#include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi::vof {
 
-/// What an advection step left behind.
-struct Advected {
-  Real overshoot = 0;  ///< largest distance of alpha from [0, 1], all ranks
-  int passes = 0;      ///< of the redistribution
+/// What a step of advection met.
+struct AdvectReport {
+  int rounds = 0;      ///< of redistribution
+  Real overshoot = 0;  ///< largest excess over [0, 1] before redistribution
+  Real remaining = 0;  ///< and after it; above 1e-12 only where the Courant number exceeds one
+  Real returned = 0;   ///< volume given back to the interface, |sum|: divergence of phi and wisps
 };
 
-/// Moves alpha with the face flux: d alpha / dt + div(alpha u) = 0   [Matsumiya25] (5).
-/// Through a face whose upwind cell holds a plane flows
-///   dV_f = phi_f int_0^dt (part of the face below the moving plane) dt   [Roenby16] (12),
-/// the plane moving with the velocity at its centre; elsewhere dV_f = alpha_upwind phi_f dt.
-/// What over- or underfills a cell is passed on downwind, so alpha stays in [0, 1] without clipping
-/// and volume is kept to round-off. Only faces of cells with alpha > 0 are touched.
-class Advect {
- public:
-  explicit Advect(const Mesh& mesh);
+/// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
+struct AdvectScratch {
+  explicit AdvectScratch(const Mesh& mesh);
 
-  /// Collective. alpha, interface, u: owned and halo; L: velocity gradient on owned interface
-  /// cells. phi must be divergence-free. On return alpha is set, halo included; the planes are out
-  /// of date.
-  Advected operator()(CellField<Real>& alpha, const Interface& interface,
-                      const FaceField<Real>& phi, const CellField<Vec3>& u,
-                      const CellField<Tensor>& L, Real dt);
-
- private:
-  void set_speed(const Interface& interface, const CellField<Vec3>& u, const CellField<Tensor>& L);
-  void list_faces(const CellField<Real>& alpha);
-  void set_fluxes(const CellField<Real>& alpha, const Interface& interface,
-                  const FaceField<Real>& phi, Real dt);
-  void apply(CellField<Real>& alpha);
-  Real worst(const CellField<Real>& alpha) const;
-  void redistribute(CellField<Real>& alpha, const FaceField<Real>& phi, Real dt);
-  void pass_on(Index c, Real excess, bool solid, const FaceField<Real>& phi, Real dt);
-
-  const Mesh& mesh_;
-  CellField<Real> speed_;     // of the plane along its normal
-  FaceField<Real> volume_;    // of solid through the face in this step; valid on faces_
-  CellField<Real> received_;  // volume that redistribution moves into a cell
-  std::vector<Index> faces_;  // faces of cells with alpha > 0
-  std::vector<Index> cells_;  // owned cells beside them
-  std::vector<std::int32_t> face_stamp_, cell_stamp_;
-  std::int32_t calls_ = 0;
-  std::vector<Index> between_ranks_;  // internal faces with a halo cell on one side
+  FaceField<Real> solid;     ///< volume of solid through each face in the last step, from P to N
+  std::vector<Index> faces;  ///< where the flux is more than alpha phi dt with alpha 0 or 1
+  std::vector<Index> full;   ///< other faces inside the solid
+  std::vector<Index> cells;  ///< owned cells of `faces`
+  std::vector<Index> rim;    ///< internal faces with a halo cell
+  std::vector<std::uint8_t> face_marked, cell_marked;
+  CellField<Real> speed;  ///< of the interface along n_hat
+  CellField<Real> share;  ///< of a cell's outflow changed by a round of redistribution
 };
+
+/// Collective. One step of isoAdvector [Roenby16]: through every face near the interface the volume
+/// swept by the upwind cell's plane, moving along its normal with the velocity at its centre, for a
+/// time dt. Where cells would leave [0, 1] their outflow is raised (lowered) until they do not; the
+/// excess goes along with the flow, no volume is clipped. With a divergence-free phi the sum of
+/// alpha V is kept to round-off. The amount that div phi != 0 and fractions within 1e-12 of 0 or 1
+/// would add is given back to the cells of the interface, each in proportion to
+/// V alpha (1 - alpha): the sum stays and full cells stay full.
+/// Through boundary faces solid can leave; what enters there is fluid.
+/// alpha, u: owned and halo set; interface: of this alpha. Courant number (dt / 2V) sum |phi| <= 1.
+/// On return owned cells and halo of alpha are set.
+AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const FaceField<Real>& phi,
+                    const CellField<Vec3>& u, Real dt, const Mesh& mesh, AdvectScratch& scratch);
 
 }  // namespace fsi::vof

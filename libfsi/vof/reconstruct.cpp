@@ -1,162 +1,169 @@
 #include "libfsi/vof/reconstruct.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/vof/stencil.hpp"
 
 namespace fsi::vof {
 namespace {
 
-/// Calls visit(cell, its centre relative to C[c]) for every cell that shares a vertex with c.
-template <class F>
-void for_neighbours(const Mesh& mesh, Index c, F visit) {
-  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
-    const Index n = mesh.cell_neighbours.index[i];
-    visit(n, mesh.C[n] + mesh.translation[mesh.cell_neighbour_shift[i]] - mesh.C[c]);
+// A gradient this small against what it should be has no direction.
+constexpr Real degenerate = 1e-6;
+
+bool has_interface(Real alpha) { return alpha > interface_eps && alpha < 1 - interface_eps; }
+
+/// Owned cells with an interface, and all owned cells that touch one.
+void find_cells(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScratch& s) {
+  for (const Index c : s.near) s.marked[c] = 0;
+  s.cells.clear(), s.near.clear();
+  const auto mark = [&](Index c) {
+    if (c < mesh.n_owned && !s.marked[c]) s.marked[c] = 1, s.near.push_back(c);
+  };
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (!has_interface(alpha[c])) continue;
+    s.cells.push_back(c);
+    mark(c);
+    for (const Index n : mesh.cell_neighbours[c]) mark(n);
+  }
+  for (Index c = mesh.n_owned; c < mesh.n_cells; ++c) {
+    if (!has_interface(alpha[c])) continue;
+    for (const Index n : s.halo_neighbours[c - mesh.n_owned]) mark(n);
   }
 }
 
-/// Solves the symmetric positive 3x3 system A x = b.
-Vec3 solve(const SymTensor& A, const Vec3& b) {
-  const Real s = 1 / det(A);
-  const Real xx = A.yy * A.zz - A.yz * A.yz, xy = A.xz * A.yz - A.xy * A.zz,
-             xz = A.xy * A.yz - A.xz * A.yy, yy = A.xx * A.zz - A.xz * A.xz,
-             yz = A.xy * A.xz - A.xx * A.yz, zz = A.xx * A.yy - A.xy * A.xy;
-  return s * Vec3{xx * b.x + xy * b.y + xz * b.z, xy * b.x + yy * b.y + yz * b.z,
-                  xz * b.x + yz * b.y + zz * b.z};
+/// n = -grad alpha / |grad alpha|; none where the gradient vanishes.
+void first_normals(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScratch& s) {
+  s.fit.resize(s.cells.size()), s.normal.resize(s.cells.size());
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    s.fit[i] = least_squares(mesh, s.cells[i]);
+    const Vec3 g = gradient_at(alpha, s.fit[i], mesh, s.cells[i]);
+    const Real size = norm(g);
+    const Real h = std::pow(mesh.V[s.cells[i]], 1.0 / mesh.dim);
+    s.normal[i] = size * h > interface_eps * degenerate ? g / -size : Vec3{};
+  }
+}
+
+/// The plane with normal s.normal and the part alpha of the cell behind it, in every cell of
+/// s.cells.
+void cut_cells(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
+               ReconstructScratch& s) {
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    const Index c = s.cells[i];
+    if (norm2(s.normal[i]) == 0) continue;
+    gather(s.cell, mesh, c);
+    const geometry::Plane plane = geometry::plane_at(s.cell, s.normal[i], alpha[c]);
+    const geometry::Cut cut = geometry::cut(s.cell, plane);
+    interface.piece[c] = cut.area > 0 ? Piece{plane.n, mesh.C[c] + cut.centre, cut.area} : Piece{};
+  }
+  mesh.halo.update(interface.piece);
+}
+
+/// Signed distance psi to the interface at the centres of s.near: to the cell's own plane, else
+///   psi = sum w n.(x - x_S) / sum w,  w = (n . (x - x_S) / |x - x_S|)^2   [Scheufler19]
+/// over the planes of the vertex neighbours.
+void reconstruct_distance(const Interface& interface, const Mesh& mesh, ReconstructScratch& s) {
+  for (const Index c : s.near) {
+    const Vec3 x = mesh.C[c];
+    if (const Piece& own = interface.piece[c]; own.area > 0) {
+      s.psi[c] = dot(own.n_hat, x - own.centre);
+      continue;
+    }
+    Real sum = 0, total = 0;
+    for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
+      const Piece& p = interface.piece[mesh.cell_neighbours.index[k]];
+      if (!(p.area > 0)) continue;
+      const Vec3 d = x - p.centre - mesh.translation[mesh.cell_neighbour_shift[k]];
+      const Real distance = dot(p.n_hat, d);
+      const Real w = distance * distance / norm2(d);
+      sum += w * distance, total += w;
+    }
+    s.psi[c] = total > 0 ? sum / total : 0;
+  }
+  mesh.halo.update(s.psi);
+}
+
+/// Means over the interface of 1 - cos.
+struct Change {
+  Real turned = 0;  ///< between a cell's normals before and after
+  Real bent = 0;    ///< between a cell's normal and its neighbours'
+};
+
+/// n = grad psi / |grad psi| (a distance: |grad psi| = 1 unless planes contradict each other).
+Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScratch& s) {
+  std::array<Sum, 3> sums;
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    const Index c = s.cells[i];
+    if (norm2(s.normal[i]) == 0) continue;
+    const Vec3 g = gradient_at(s.psi, s.fit[i], mesh, c);
+    const Real size = norm(g);
+    if (!(size > degenerate)) continue;
+    const Vec3 n = g / size;
+    Real bent = 0;
+    int count = 0;
+    for (const Index k : mesh.cell_neighbours[c]) {
+      const Piece& p = interface.piece[k];
+      if (p.area > 0) bent += 1 - dot(p.n_hat, s.normal[i]), ++count;
+    }
+    sums[0].add(1 - dot(n, s.normal[i])), sums[1].add(count > 0 ? bent / count : 0), sums[2].add(1);
+    s.normal[i] = n;
+  }
+  std::array<Real, 3> totals;
+  Sum::totals(totals, sums);
+  if (totals[2] == 0) return {};
+  return {totals[0] / totals[2], totals[1] / totals[2]};
 }
 
 }  // namespace
 
-Vec3 least_squares_gradient(const CellField<Real>& q, const Mesh& mesh, Index c) {
-  SymTensor A;
-  Vec3 b;
-  for_neighbours(mesh, c, [&](Index n, const Vec3& d) {
-    const Real w = 1 / norm2(d);
-    A += w * SymTensor{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
-    b += (w * (q[n] - q[c])) * d;
-  });
-  if (mesh.dim == 2) A.zz = 1;
-  return solve(A, b);
-}
-
-Reconstruct::Reconstruct(const Mesh& mesh)
-    : mesh_(mesh), psi_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
-  std::vector<std::vector<Index>> around(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned));
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    for (const Index n : mesh.cell_neighbours[c])
-      if (n >= mesh.n_owned) around[n - mesh.n_owned].push_back(c);
-  for (const auto& row : around) {
-    halo_neighbours_.index.insert(halo_neighbours_.index.end(), row.begin(), row.end());
-    halo_neighbours_.offset.push_back(static_cast<Index>(halo_neighbours_.index.size()));
-  }
-}
-
-int Reconstruct::operator()(Interface& interface, const CellField<Real>& alpha) {
-  find_cells(interface, alpha);
-  const bool guessed = first_normals(interface, alpha);
-  cut(interface, alpha);
-  const int most = guessed ? 1 : 5;
-  constexpr Real tolerance = 1e-6;
-  for (int i = 1; i <= most; ++i) {
-    distance(interface);
-    const Real change = turn(interface);
-    cut(interface, alpha);
-    if (change < tolerance) return i;
-  }
-  return most;
-}
-
-void Reconstruct::renew(Interface& interface, const CellField<Real>& alpha) {
-  find_cells(interface, alpha);
-  cut(interface, alpha);
-}
-
-void Reconstruct::find_cells(Interface& interface, const CellField<Real>& alpha) {
-  // Cells that held a plane but hold none now are cleared; the halo is set by the exchange in
-  // cut().
-  for (const Index c : interface.cells)
-    if (!is_interface(alpha[c])) interface.normal[c] = interface.centre[c] = {};
-  interface.cells.clear();
-  near_.clear();
-  ++calls_;
-  const auto list = [&](Index c) {
-    if (c >= mesh_.n_owned || stamp_[c] == calls_) return;
-    stamp_[c] = calls_;
-    near_.push_back(c);
-  };
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    if (is_interface(alpha[c])) interface.cells.push_back(c);
-  for (const Index c : interface.cells) {
-    list(c);
-    for (const Index n : mesh_.cell_neighbours[c]) list(n);
-  }
-  // A cell of this rank whose interface neighbours all lie on other ranks.
-  for (Index c = mesh_.n_owned; c < mesh_.n_cells; ++c)
-    if (is_interface(alpha[c]))
-      for (const Index n : halo_neighbours_[c - mesh_.n_owned]) list(n);
-}
-
-bool Reconstruct::first_normals(Interface& interface, const CellField<Real>& alpha) {
-  GlobalIndex guessed = 0;
-  for (const Index c : interface.cells) {
-    if (norm2(interface.normal[c]) > 0) {
-      ++guessed;
-      continue;
+ReconstructScratch::ReconstructScratch(const Mesh& mesh)
+    : psi(mesh), marked(static_cast<std::size_t>(mesh.n_owned), 0), cell(mesh.dim) {
+  auto& offset = halo_neighbours.offset;
+  offset.assign(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned) + 1, 0);
+  const auto each = [&](auto&& visit) {
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      for (const Index n : mesh.cell_neighbours[c]) {
+        if (n >= mesh.n_owned) visit(n - mesh.n_owned, c);
+      }
     }
-    const Vec3 g = least_squares_gradient(alpha, mesh_, c);
-    const Real size = norm(g);
-    interface.normal[c] = size > 0 ? -1 / size * g : Vec3{1, 0, 0};
-  }
-  return global_sum(guessed) > 0;
+  };
+  each([&](Index h, Index) { ++offset[h + 1]; });
+  for (std::size_t h = 1; h < offset.size(); ++h) offset[h] += offset[h - 1];
+  halo_neighbours.index.resize(offset.back());
+  std::vector<Index> next(offset.begin(), offset.end() - 1);
+  each([&](Index h, Index c) { halo_neighbours.index[next[h]++] = c; });
 }
 
-void Reconstruct::cut(Interface& interface, const CellField<Real>& alpha) {
-  for (const Index c : interface.cells) {
-    gather(cell_, mesh_, c);
-    interface.centre[c] = geometry::cut_at_fraction(cell_, interface.normal[c], alpha[c]).centre;
+ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
+                              ReconstructScratch& s, const ReconstructAccuracy& accuracy) {
+  for (const Index c : interface.cells) interface.piece[c] = {};
+  find_cells(alpha, mesh, s);
+  first_normals(alpha, mesh, s);
+  ReconstructReport report;
+  cut_cells(interface, alpha, mesh, s);
+  for (int i = 0; i < accuracy.max_rounds; ++i) {
+    reconstruct_distance(interface, mesh, s);
+    const Change change = new_normals(interface, mesh, s);
+    cut_cells(interface, alpha, mesh, s);
+    report = {i + 1, change.turned};
+    if (change.turned < accuracy.turn || change.turned < accuracy.turn_of_bend * change.bent) break;
   }
-  mesh_.halo.update(interface.normal);
-  mesh_.halo.update(interface.centre);
+  interface.cells.clear();
+  for (const Index c : s.cells) {
+    if (interface.piece[c].area > 0) interface.cells.push_back(c);
+  }
+  return report;
 }
 
-void Reconstruct::distance(const Interface& interface) {
-  for (const Index c : near_) {
-    Real sum = 0, weights = 0;
-    const auto add = [&](Index n, const Vec3& d) {
-      const Vec3& normal = interface.normal[n];
-      if (norm2(normal) == 0) return;
-      const Vec3 r = -d - interface.centre[n];  // x_c - c_n
-      const Real distance = dot(normal, r), size = norm2(r);
-      // A centre on the plane itself has distance zero and says so with full weight.
-      const Real w = size > 0 ? std::max(distance * distance / size, 1e-12) : 1;
-      sum += w * distance;
-      weights += w;
-    };
-    add(c, {});
-    for_neighbours(mesh_, c, add);
-    psi_[c] = weights > 0 ? sum / weights : 0;
+void gather(geometry::Polytope& cell, const Mesh& mesh, Index c) {
+  cell.clear();
+  std::array<Vec3, geometry::Polytope::max_points> x;
+  for (const Index f : mesh.cell_faces[c]) {
+    const auto n = static_cast<Index>(mesh.face_points[f].size());
+    for (Index i = 0; i < n; ++i) x[i] = mesh.corner(f, i, c) - mesh.C[c];
+    cell.add_face({x.data(), static_cast<std::size_t>(n)}, mesh.owner[f] != c);
   }
-  mesh_.halo.update(psi_);
-}
-
-Real Reconstruct::turn(Interface& interface) {
-  guess_.clear();
-  Real change = 0;
-  for (const Index c : interface.cells) {
-    const Vec3 g = least_squares_gradient(psi_, mesh_, c);
-    const Real size = norm(g);
-    const Vec3 n = size > 0 ? g / size : interface.normal[c];
-    change += 1 - dot(n, interface.normal[c]);
-    guess_.push_back(n);
-  }
-  for (std::size_t i = 0; i < guess_.size(); ++i) interface.normal[interface.cells[i]] = guess_[i];
-  const GlobalIndex count = global_sum(static_cast<GlobalIndex>(guess_.size()));
-  Sum total;
-  total.add(change);
-  const Real sum = total.total();
-  return count > 0 ? sum / static_cast<Real>(count) : 0;
 }
 
 }  // namespace fsi::vof

@@ -1,50 +1,71 @@
 #pragma once
-// plicRDF: planes whose normals follow the gradient of a reconstructed distance [Scheufler19].
+// The interface as planes: one in every cell that solid and fluid share.
 
+#include <cstdint>
 #include <vector>
 
-#include "libfsi/vof/interface.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/geometry/cut.hpp"
+#include "libfsi/mesh/mesh.hpp"
 
 namespace fsi::vof {
 
-/// Finds the planes of a volume fraction field. Keeps scratch and the last normals as the first
-/// guess of the next call; the guess is part of a checkpoint (Interface::normal).
-class Reconstruct {
- public:
-  explicit Reconstruct(const Mesh& mesh);
+/// A cell has an interface where alpha lies in (eps, 1 - eps).
+inline constexpr Real interface_eps = 1e-8;
 
-  /// Collective. alpha: owned and halo. On return `interface` holds a plane in every interface
-  /// cell, cutting off exactly alpha, halo included. Iterates
-  ///   psi_i = sum_j w_ij n_j . (x_i - c_j) / sum_j w_ij,  w_ij = (n_j . (x_i - c_j))^2 / |x_i -
-  ///   c_j|^2, n_i = grad psi / |grad psi|                          [Scheufler19] (14), (15), (17)
-  /// over the cells that share a vertex, until the mean of 1 - n . n_old is below 1e-6, at most
-  /// five times, and once where the last call's normals are the guess: they are one step old, and
-  /// further iterations only turn the normals of filaments thinner than the stencil (reversed
-  /// vortex, 128^2, T = 8: shape error 2.5e-3 with one, 3.3e-3 with five). Returns the iterations.
-  int operator()(Interface& interface, const CellField<Real>& alpha);
-
-  /// Collective. Finds the cells and planes of alpha with the normals that `interface` holds.
-  void renew(Interface& interface, const CellField<Real>& alpha);
-
- private:
-  void find_cells(Interface& interface, const CellField<Real>& alpha);
-  bool first_normals(Interface& interface, const CellField<Real>& alpha);
-  void cut(Interface& interface, const CellField<Real>& alpha);
-  void distance(const Interface& interface);
-  Real turn(Interface& interface);
-
-  const Mesh& mesh_;
-  CellField<Real> psi_;
-  std::vector<Index> near_;          // owned cells with an interface cell around
-  std::vector<std::int32_t> stamp_;  // [n_owned] last call that listed the cell
-  std::int32_t calls_ = 0;
-  Csr halo_neighbours_;      // owned cells around every halo cell
-  std::vector<Vec3> guess_;  // beside Interface::cells
-  geometry::Cell cell_;
+/// The plane in one cell.
+struct Piece {
+  Vec3 n_hat;     ///< unit normal out of the solid, toward alpha = 0; zero where there is no plane
+  Vec3 centre;    ///< centroid of the part of the plane inside the cell
+  Real area = 0;  ///< of that part (length in 2-D)
 };
 
-/// Gradient at cell c by least squares over the cells that share a vertex, weights 1 / d^2.
-/// Directions without information (2-D: z) give zero.
-Vec3 least_squares_gradient(const CellField<Real>& q, const Mesh& mesh, Index c);
+/// The interface in all cells of this rank, halo included.
+struct Interface {
+  explicit Interface(const Mesh& mesh) : piece(mesh) {}
+  std::vector<Index> cells;  ///< owned cells with a plane, ascending
+  CellField<Piece> piece;    ///< owned and halo cells
+};
+
+/// When the normals count as settled; the defaults are those of [Scheufler19]. Planes are exact in
+/// the limit of many rounds; where a film is thinner than the stencil more rounds make it worse.
+struct ReconstructAccuracy {
+  int max_rounds = 5;
+  Real turn = 1e-6;         ///< mean over the interface of 1 - cos of what a round turns them
+  Real turn_of_bend = 0.1;  ///< the same as a part of the mean 1 - cos between neighbours' normals
+};
+
+/// How well the normals settled.
+struct ReconstructReport {
+  int rounds = 0;  ///< of distance and gradient
+  Real turn = 0;   ///< mean over the interface of 1 - cos of what the last round turned
+};
+
+/// Scratch of `reconstruct`, made once; grows with the interface, never shrinks.
+struct ReconstructScratch {
+  explicit ReconstructScratch(const Mesh& mesh);
+
+  Csr halo_neighbours;               ///< [n_cells - n_owned] owned cells that touch a halo cell
+  CellField<Real> psi;               ///< reconstructed distance near the interface
+  std::vector<Index> cells;          ///< owned cells with alpha between the limits
+  std::vector<Index> near;           ///< owned cells that touch one of those, or are one
+  std::vector<std::uint8_t> marked;  ///< [n_owned] whether the cell is in `near`
+  std::vector<SymTensor> fit;        ///< [cells] inverse moments of the least-squares gradient
+  std::vector<Vec3> normal;          ///< [cells]
+  geometry::Polytope cell;
+};
+
+/// Collective. plicRDF [Scheufler19]: normals from a least-squares gradient of alpha, then
+/// rounds of: cut the cells, reconstruct the signed distance to the planes around them, take its
+/// gradient for normals. The result depends on alpha alone, not on the steps before; on the number
+/// of ranks by no more than round-off.
+/// alpha: owned and halo set. On return owned cells and halo of `interface` are set; cells whose
+/// gradient vanishes (a lone wisp) have no plane.
+ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
+                              ReconstructScratch& scratch,
+                              const ReconstructAccuracy& accuracy = {});
+
+/// The boundary of owned cell c, coordinates relative to C[c].
+void gather(geometry::Polytope& cell, const Mesh& mesh, Index c);
 
 }  // namespace fsi::vof

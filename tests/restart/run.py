@@ -47,14 +47,27 @@ def last_checkpoint(out):
         return file.read()
 
 
+def session_of(leader):
+    """The processes of a session: mpiexec puts its ranks into process groups of their own."""
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            if os.getsid(int(name)) == leader:
+                yield int(name)
+        except ProcessLookupError:
+            pass
+
+
 def kill_after(command, seconds):
-    """Starts a run in a group of its own and kills all of it."""
+    """Starts a run in a session of its own and kills all of it."""
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL, start_new_session=True) as run:
         try:
             run.wait(seconds)
         except subprocess.TimeoutExpired:
-            os.killpg(run.pid, signal.SIGKILL)
+            for process in list(session_of(run.pid)):
+                os.kill(process, signal.SIGKILL)
+            while any(process != run.pid for process in session_of(run.pid)):
+                time.sleep(0.01)
 
 
 def go_through(name, source, drivers, folder, launcher):
