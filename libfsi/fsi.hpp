@@ -13,6 +13,7 @@
 #include "libfsi/io/table.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/carried.hpp"
 #include "libfsi/solver/case.hpp"
 #include "libfsi/solver/output.hpp"
 #include "libfsi/solver/solver.hpp"
