@@ -28,9 +28,10 @@ void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const Cel
                      const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
                      const FaceWeights& weights, const Mesh& mesh);
 
-/// rest_c += sum_f mu_f k_f . (grad u)_f + (mu_f - mu_0) (grad u)_f^T . S_f: what the compact part
-/// leaves of div(mu (grad u + grad u^T)). With a constant mu the transpose vanishes by div u = 0,
-/// so only its excess over the constant mu_0 is added.
+/// rest_c += sum_f mu_f k_f . (grad u)_f + (grad u)_c^T . sum_f (mu_f - mu_0) S_f: what the compact
+/// part leaves of div(mu (grad u + grad u^T)). By div u = 0 the transpose is (grad u)^T . grad mu,
+/// which acts only where mu changes; as a sum of fluxes mu (grad u)_f^T . S_f it would feed, all
+/// over the more viscous phase, on what little divergence the cell velocities have, explicitly.
 void viscous_rest(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
                   const CellField<Tensor>& L, const std::vector<char>& open_face,
                   const FaceWeights& weights, const Mesh& mesh);

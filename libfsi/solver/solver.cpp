@@ -48,7 +48,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       pressure_phase_(profile_.add("pressure")) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
-  if (physics.mu_s > 2 * physics.mu_f) momentum_.theta = 1;
+  if (physics.mu_s > 2 * physics.mu_f || physics.mu_f > 2 * physics.mu_s) momentum_.theta = 1;
   set_boundary_pressure(p_b_, conditions_, mesh);
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
