@@ -1,0 +1,114 @@
+// Observed orders on exact solutions of the Navier-Stokes equations, on cells that are neither
+// orthogonal nor straight: triangles, and quads of a grid bent by a smooth map.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "libfsi/analysis/measures.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real pi = std::numbers::pi;
+
+struct Errors {
+  Real u = 0, p = 0;
+};
+
+/// L2 errors against exact fields; the mean of the pressure difference is taken out.
+template <class U, class P>
+Errors errors(const Solver& solver, const U& u, const P& p) {
+  const Mesh& mesh = solver.mesh();
+  const State& s = solver.state();
+  Sum mean;
+  for (Index c = 0; c < mesh.n_owned; ++c) mean.add(mesh.V[c] * (s.p[c] - p(mesh.C[c])));
+  const Real shift = mean.total() / mesh.total_volume;
+  return {analysis::norms(mesh, [&](Index c) { return s.u[c] - u(mesh.C[c]); }).l2,
+          analysis::norms(mesh, [&](Index c) { return s.p[c] - p(mesh.C[c]) - shift; }).l2};
+}
+
+Errors kovasznay(const Mesh& mesh, Real dt) {
+  constexpr Real nu = 1.0 / 40;
+  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
+  const auto u = [lam](const Vec3& y) {
+    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
+    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
+                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
+  };
+  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
+  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
+  solver.start(u);
+  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
+  return errors(solver, u, p);
+}
+
+Mesh bent(Index n, bool simplex, bool bend) {
+  test::BoxFile box{.n = {n, n, 0}, .simplex = simplex};
+  if (bend)
+    box.moved = [](const Vec3& x) {
+      const Real s = std::sin(2 * pi * x.x) * std::sin(2 * pi * x.y);
+      return Vec3{x.x + 0.06 * s, x.y - 0.06 * s, 0};
+    };
+  return test::read_box(box);
+}
+
+/// Order of u and p between 16 and 32 cells per side, at a Courant number of about 0.4.
+void expect_orders(const char* name, bool simplex, bool bend, Real u_order) {
+  const Real part = simplex ? 0.08 : 0.2;
+  const Errors a = kovasznay(bent(16, simplex, bend), part / 16),
+               b = kovasznay(bent(32, simplex, bend), part / 32);
+  const Real u = std::log2(a.u / b.u), p = std::log2(a.p / b.p);
+  if (rank() == 0)
+    std::printf("Kovasznay, %s: u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", name, a.u, b.u,
+                u, a.p, b.p, p);
+  EXPECT_GE(u, u_order);
+  EXPECT_GE(p, 1.5);
+}
+
+TEST(ObliqueFlows, KovasznayBentQuads) { expect_orders("bent quads", false, true, 1.9); }
+TEST(ObliqueFlows, KovasznayTriangles) { expect_orders("triangles", true, false, 1.7); }
+TEST(ObliqueFlows, KovasznayBentTriangles) { expect_orders("bent triangles", true, true, 1.7); }
+
+Errors taylor_green(Index n, Real t_end, int steps) {
+  const Mesh mesh = test::read_box(
+      {.n = {n, n, 0}, .simplex = true, .periodic = {"left", "right", "bottom", "top"}});
+  constexpr Real nu = 0.01, k = 2 * pi;
+  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu}, {});
+  const auto decay = [](Real t) { return std::exp(-2 * nu * k * k * t); };
+  const auto u = [&](const Vec3& x, Real t) {
+    return decay(t) *
+           Vec3{std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0};
+  };
+  const auto p = [&](const Vec3& x, Real t) {
+    return (std::cos(2 * k * x.x) + std::cos(2 * k * x.y)) * decay(t) * decay(t) / 4;
+  };
+  solver.start([&](const Vec3& x) { return u(x, 0); });
+  for (int i = 0; i < steps; ++i) solver.step(t_end / steps);
+  const Real middle = t_end - t_end / steps / 2;  // of the last step, to which its pressure belongs
+  return errors(
+      solver, [&](const Vec3& x) { return u(x, t_end); },
+      [&](const Vec3& x) { return p(x, middle); });
+}
+
+TEST(ObliqueFlows, TaylorGreenTriangles) {
+  const Errors a = taylor_green(16, 0.5, 100), b = taylor_green(32, 0.5, 200),
+               c = taylor_green(64, 0.5, 400);
+  const Real u = std::log2(b.u / c.u), p = std::log2(b.p / c.p);
+  if (rank() == 0)
+    std::printf(
+        "Taylor-Green, triangles: u %.3e %.3e %.3e order %.2f, p %.3e %.3e %.3e order %.2f\n", a.u,
+        b.u, c.u, u, a.p, b.p, c.p, p);
+  EXPECT_GE(u, 1.7);
+  EXPECT_GE(p, 1.5);
+}
+
+}  // namespace
+}  // namespace fsi
