@@ -55,7 +55,7 @@ Real axis_pressure(const Solver& solver, Real h, Real at) {
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Vec3 C = mesh.C[c];
     const Real r = std::hypot(C.y - 0.5, C.z - 0.5);
-    if (r > 0.8 * h || C.x < first || C.x > first + 2 * h) continue;
+    if (r > 1.1 * h || C.x < first || C.x > first + 2 * h) continue;
     const std::size_t layer = C.x > first + h ? 3 : 0;
     sums[layer].add(solver.state().p[c]), sums[layer + 1].add(C.x), sums[layer + 2].add(1);
   }
