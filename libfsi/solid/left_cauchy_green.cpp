@@ -39,14 +39,13 @@ void set_undeformed(CellField<SymTensor>& Bt, const CellField<Real>& alpha, cons
     Bt[c] = alpha[c] >= alpha_min ? std::sqrt(alpha[c]) * identity() : SymTensor{};
 }
 
-LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh)
-    : mesh_(mesh), old_(mesh), rate_(mesh), grad_(mesh) {}
+LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : mesh_(mesh), old_(mesh), rate_(mesh) {}
 
 void LeftCauchyGreen::rate(const CellField<SymTensor>& Bt, const FaceField<Real>& phi,
                            const CellField<Tensor>& L, const GradientStencil& stencil,
-                           const Band& band) {
-  gradient(grad_, Bt, stencil, mesh_, band.cells());
-  mesh_.halo.update(grad_);
+                           const Band& band, CellField<SymGradient>& grad) {
+  gradient(grad, Bt, stencil, mesh_, band.cells());
+  mesh_.halo.update(grad);
   for (const Index c : band.core()) {
     // -(1/V) sum_f phi_f (Bt_f - Bt_c), Bt_f = Bt_up + grad Bt_up . (x_f - x_up)
     SymTensor sum;
@@ -56,7 +55,7 @@ void LeftCauchyGreen::rate(const CellField<SymTensor>& Bt, const FaceField<Real>
       const bool owner = mesh_.owner[f] == c;
       const Real out = owner ? phi[f] : -phi[f];
       const Index up = phi[f] >= 0 ? mesh_.owner[f] : mesh_.neighbour[f];
-      const SymTensor face = Bt[up] + along(grad_[up], mesh_.face_centre(f, up) - mesh_.C[up]);
+      const SymTensor face = Bt[up] + along(grad[up], mesh_.face_centre(f, up) - mesh_.C[up]);
       sum += out * (face - Bt[c]);
     }
     rate_[c] = stretch(L[c], Bt[c]) - (1 / mesh_.V[c]) * sum;
@@ -65,12 +64,13 @@ void LeftCauchyGreen::rate(const CellField<SymTensor>& Bt, const FaceField<Real>
 
 void LeftCauchyGreen::transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha,
                                 const FaceField<Real>& phi, const CellField<Tensor>& L,
-                                const GradientStencil& stencil, const Band& band, Real dt) {
+                                const GradientStencil& stencil, const Band& band, Real dt,
+                                CellField<SymGradient>& grad) {
   for (const Index c : band.core()) old_[c] = Bt[c];
-  rate(Bt, phi, L, stencil, band);
+  rate(Bt, phi, L, stencil, band, grad);
   for (const Index c : band.core()) Bt[c] += dt * rate_[c];
   mesh_.halo.update(Bt);
-  rate(Bt, phi, L, stencil, band);
+  rate(Bt, phi, L, stencil, band, grad);
   for (const Index c : band.core()) Bt[c] = 0.5 * (old_[c] + Bt[c] + dt * rate_[c]);
   for (const Index c : band.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};

@@ -37,18 +37,17 @@ class LeftCauchyGreen {
 
   /// Collective. Bt: owned and halo, of the start of the step, zero outside the band's last core.
   /// alpha, band: of its end. L: on the cells of the band's core. On return Bt is set on owned
-  /// cells and halo, zero where alpha < alpha_min.
+  /// cells and halo, zero where alpha < alpha_min. grad: scratch.
   void transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const FaceField<Real>& phi,
                  const CellField<Tensor>& L, const GradientStencil& stencil, const Band& band,
-                 Real dt);
+                 Real dt, CellField<SymGradient>& grad);
 
  private:
   void rate(const CellField<SymTensor>& Bt, const FaceField<Real>& phi, const CellField<Tensor>& L,
-            const GradientStencil& stencil, const Band& band);
+            const GradientStencil& stencil, const Band& band, CellField<SymGradient>& grad);
 
   const Mesh& mesh_;
   CellField<SymTensor> old_, rate_;
-  CellField<SymGradient> grad_;
 };
 
 }  // namespace fsi::solid

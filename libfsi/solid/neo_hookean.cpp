@@ -8,13 +8,13 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh), grad_(mesh) {}
+NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh) {}
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
                        const CellField<SymTensor>& Bt, const CellField<Real>& alpha,
-                       const FaceWeights& weights, const GradientStencil& stencil,
-                       const Band& band) {
-  for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad_[c] = {};
+                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                       CellField<SymGradient>& grad) {
+  for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
@@ -27,8 +27,8 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   for (const Index c : band.core())
     tau_[c] = (std::sqrt(std::max(alpha[c], 0.0)) * G_) * dev(Bt[c]);
   mesh_.halo.update(tau_);
-  gradient(grad_, tau_, stencil, mesh_, band.cells());
-  mesh_.halo.update(grad_);
+  gradient(grad, tau_, stencil, mesh_, band.cells());
+  mesh_.halo.update(grad);
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     if (f >= mesh_.n_internal) {
@@ -40,8 +40,8 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
     const auto between = [lambda](const SymTensor& a, const SymTensor& b) {
       return (1 - lambda) * a + lambda * b;
     };
-    const SymGradient grad_f{between(grad_[P].x, grad_[N].x), between(grad_[P].y, grad_[N].y),
-                             between(grad_[P].z, grad_[N].z)};
+    const SymGradient grad_f{between(grad[P].x, grad[N].x), between(grad[P].y, grad[N].y),
+                             between(grad[P].z, grad[N].z)};
     // tau_f = (1 - lambda) tau_P + lambda tau_N + (grad tau)_f . skew
     SymTensor tau_f = between(tau_[P], tau_[N]);
     if (weights.skewed) tau_f += along(grad_f, weights.skew[f]);

@@ -15,9 +15,10 @@ class NeoHookean {
   /// cell's own at boundaries;
   /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
   /// stress. Zero outside the band of this and of the last call. force: owned and halo.
+  /// grad: scratch that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const CellField<SymTensor>& Bt,
              const CellField<Real>& alpha, const FaceWeights& weights,
-             const GradientStencil& stencil, const Band& band);
+             const GradientStencil& stencil, const Band& band, CellField<SymGradient>& grad);
 
   Real G() const { return G_; }
 
@@ -25,7 +26,6 @@ class NeoHookean {
   const Mesh& mesh_;
   Real G_;
   CellField<SymTensor> tau_;
-  CellField<SymGradient> grad_;
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
 

@@ -25,6 +25,7 @@ struct Body {
         band(mesh),
         kinematics(mesh),
         law(mesh, G),
+        grad(mesh),
         filled(vof::fill(alpha, mesh, shape)) {
     solid::set_undeformed(Bt, alpha, mesh);
     band.rebuild(alpha, solid::alpha_min);
@@ -39,8 +40,9 @@ struct Body {
   Band band;  ///< of alpha >= alpha_min
   solid::LeftCauchyGreen kinematics;
   solid::NeoHookean law;
-  vof::Filled filled;          ///< volume and its error at the start
-  vof::AdvectReport advected;  ///< of the last step
+  CellField<solid::SymGradient> grad;  ///< scratch of both
+  vof::Filled filled;                  ///< volume and its error at the start
+  vof::AdvectReport advected;          ///< of the last step
 };
 
 }  // namespace fsi

@@ -117,7 +117,8 @@ void Solver::advance_interface(Real dt) {
 void Solver::transport_elastic(Real dt) {
   const Profile::Phase phase(profile_, solid_phase_);
   body_->band.rebuild(body_->alpha, solid::alpha_min);
-  body_->kinematics.transport(body_->Bt, body_->alpha, state_.phi, L_, u_stencil_, body_->band, dt);
+  body_->kinematics.transport(body_->Bt, body_->alpha, state_.phi, L_, u_stencil_, body_->band, dt,
+                              body_->grad);
 }
 
 void Solver::mix_viscosity() {
@@ -127,7 +128,8 @@ void Solver::mix_viscosity() {
 
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->law.apply(force_, balance_, body_->Bt, body_->alpha, weights_, u_stencil_, body_->band);
+  body_->law.apply(force_, balance_, body_->Bt, body_->alpha, weights_, u_stencil_, body_->band,
+                   body_->grad);
 }
 
 void Solver::predict_momentum(Real dt) {

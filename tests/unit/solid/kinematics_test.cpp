@@ -31,14 +31,15 @@ struct Full {
         phi(mesh),
         L(mesh),
         band(mesh),
-        kinematics(mesh) {
+        kinematics(mesh),
+        grad(mesh) {
     band.rebuild(alpha, solid::alpha_min);
   }
 
   void set_phi(const std::function<Vec3(const Vec3&)>& u) {
     for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(u(mesh.Cf[f]), mesh.Sf[f]);
   }
-  void step(Real dt) { kinematics.transport(Bt, alpha, phi, L, stencil, band, dt); }
+  void step(Real dt) { kinematics.transport(Bt, alpha, phi, L, stencil, band, dt, grad); }
   /// Largest component of Bt - B over all cells.
   Real error(const std::function<SymTensor(const Vec3&)>& B) const {
     Real worst = 0;
@@ -55,6 +56,7 @@ struct Full {
   CellField<Tensor> L;
   Band band;
   solid::LeftCauchyGreen kinematics;
+  CellField<solid::SymGradient> grad;
 };
 
 test::BoxFile plane(Index n, bool simplex, bool periodic) {

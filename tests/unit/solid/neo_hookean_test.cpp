@@ -26,11 +26,12 @@ struct Solid {
         force(mesh),
         balance(mesh),
         band(mesh),
-        law(mesh, G) {}
+        law(mesh, G),
+        grad(mesh) {}
 
   void apply() {
     band.rebuild(alpha, solid::alpha_min);
-    law.apply(force, balance, Bt, alpha, weights, stencil, band);
+    law.apply(force, balance, Bt, alpha, weights, stencil, band, grad);
   }
   /// Sum of force times volume over all ranks.
   Vec3 total() const {
@@ -63,6 +64,7 @@ struct Solid {
   FaceField<Real> balance;
   Band band;
   solid::NeoHookean law;
+  CellField<solid::SymGradient> grad;
 };
 
 /// Boxes of every kind of cell, the simplices moved off the lattice.
