@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""The soft disc in the cavity against a converged Lagrangian reference.
+
+    run.py DRIVER CASE MESHES FOLDER DATA COURANT N LIMIT [N LIMIT ...]
+
+Runs the case to t = 20 on quads of N cells per side (MESHES/discN.msh). The L2 norm over time of the
+distance of the centroid from the reference [Matsumiya25] (19) must stay below LIMIT, the relative
+change of area below 1e-12. Prints the Hausdorff distance of the interface (alpha = 0.5) from the
+reference shapes up to t = 8.2 and draws both (FOLDER/shape-N.png).
+"""
+import csv
+import json
+import os
+import resource
+import subprocess
+import sys
+
+import h5py
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+SHAPES = ["1.17", "2.34", "3.52", "4.69", "5.86", "7.03", "8.20"]
+
+
+def columns(path):
+    with open(path, encoding="utf-8") as file:
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
+    return {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
+
+
+def interface(out, item, n):
+    """The longest contour alpha = 0.5 through the cell centres."""
+    with h5py.File(os.path.join(out, item["name"])) as file:
+        alpha = file["VTKHDF/CellData/alpha"][:]
+    with h5py.File(os.path.join(out, "fields_mesh.hdf")) as file:
+        corners = file["VTKHDF/Connectivity"][:].reshape(-1, 4)
+        centre = file["VTKHDF/Points"][:][corners].mean(axis=1)
+    i, j = (np.rint(centre[:, k] * n - 0.5).astype(int) for k in (0, 1))
+    grid = np.zeros((n, n))
+    grid[j, i] = alpha
+    s = (np.arange(n) + 0.5) / n
+    lines = pyplot.contour(s, s, grid, [0.5]).allsegs[0]
+    pyplot.close("all")
+    return max(lines, key=len)
+
+
+def distance(points, polygon):
+    """Largest distance of the points from the closed polygon."""
+    a = polygon
+    d = np.roll(polygon, -1, axis=0) - a
+    far = 0
+    for x in points:
+        s = np.clip(((x - a) * d).sum(1) / np.maximum((d * d).sum(1), 1e-30), 0, 1)
+        far = max(far, np.sqrt((((a + s[:, None] * d) - x) ** 2).sum(1).min()))
+    return far
+
+
+def compare_shapes(out, data, folder, n):
+    with open(os.path.join(out, "fields.hdf.series"), encoding="utf-8") as file:
+        series = json.load(file)["files"]
+    lines = [interface(out, series[k + 1], n) for k in range(len(SHAPES))]
+    figure, axes = pyplot.subplots(2, 4, figsize=(12, 6.4), sharex=True, sharey=True)
+    far = []
+    for k, time in enumerate(SHAPES):
+        shape = columns(os.path.join(data, f"softdisc_shape_t{time}.csv"))
+        polygon = np.column_stack([shape["x"], shape["y"]])
+        far.append(max(distance(lines[k], polygon), distance(polygon, lines[k])) * n)
+        axis = axes.flat[k]
+        axis.fill(polygon[:, 0], polygon[:, 1], color="0.8", label="reference")
+        axis.plot(*lines[k].T, "r", lw=1, label=f"N = {n}")
+        axis.set(title=f"t = {time}", aspect="equal", xlim=(0, 1), ylim=(0, 1))
+    axes.flat[0].legend(fontsize=8)
+    axes.flat[-1].axis("off")
+    figure.tight_layout()
+    figure.savefig(os.path.join(folder, f"shape-{n}.png"), dpi=80)
+    print("  Hausdorff distance in cells at t = " +
+          ", ".join(f"{t}: {d:.2f}" for t, d in zip(SHAPES, far)), flush=True)
+
+
+def main():
+    driver, case, meshes, folder, data, courant = sys.argv[1:7]
+    reference = columns(os.path.join(data, "softdisc_reference_G0.1.csv"))
+    failures = []
+    for n, limit in zip(map(int, sys.argv[7::2]), map(float, sys.argv[8::2])):
+        out = os.path.join(folder, f"N{n}-Co{courant}")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        subprocess.run([driver, case, "-mesh", os.path.join(meshes, f"disc{n}.msh"),
+                        "-output_dir", out, "-time_end", "20", "-time_courant", courant,
+                        "-output_interval", str(8.2 / 7), "-sample_interval", "0.02"],
+                       check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        cpu = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        run = columns(os.path.join(out, "solid.csv"))
+        away = np.hypot(np.interp(reference["t"], run["t"], run["x"]) - reference["xc_ref"],
+                        np.interp(reference["t"], run["t"], run["y"]) - reference["yc_ref"])
+        early = reference["t"] <= 8.2
+        drift = np.abs(run["volume"] / run["volume"][0] - 1).max()
+        with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+            steps = json.load(file)["steps"]
+        error = np.sqrt(np.mean(away ** 2))
+        print(f"N {n} Co {courant}: L2 {error:.3e} (limit {limit:.2e}), to t = 8.2 "
+              f"{np.sqrt(np.mean(away[early] ** 2)):.3e}, Linf {away.max():.3e}, area {drift:.1e}, det B "
+              f"{run['det_B_min'].min():.2f} to {run['det_B_max'].max():.2f}, {steps} steps, CPU "
+              f"{cpu:.1f} s", flush=True)
+        compare_shapes(out, data, folder, n)
+        if not error <= limit:
+            failures.append(f"N = {n}: the error {error:.3e} exceeds {limit}")
+        if not drift <= 1e-12:
+            failures.append(f"N = {n}: the area changes by {drift:.1e}")
+    print("\n".join(failures))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
