@@ -1,5 +1,6 @@
 #include "libfsi/solver/case.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "libfsi/core/error.hpp"
@@ -88,18 +89,37 @@ void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
       "max %.3f\n",
       which.mesh.file.c_str(), static_cast<long long>(mesh.n_global), mesh.dim, ranks(),
       q.non_orthogonality_max, q.non_orthogonality_mean, q.skewness_max);
-  std::printf("Re = %.4g on length %g and velocity %g\n",
-              which.physics.rho * velocity * length / which.physics.mu_f, length, velocity);
+  const Physics& p = which.physics;
+  std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
+              length, velocity);
+  if (which.solid.shape) {
+    const auto cells = static_cast<Real>(mesh.n_global);
+    const Real h = std::pow(mesh.total_volume / cells, 1.0 / mesh.dim);
+    std::printf(
+        "%s: Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g, density ratio 1, viscosity "
+        "ratio "
+        "%.4g, %.1f cells through its thickness of %g\n",
+        which.solid.name.c_str(), p.mu_f * velocity / (p.G * length),
+        p.G / (p.rho * velocity * velocity), p.mu_s / p.mu_f, which.solid.thickness / h,
+        which.solid.thickness);
+  }
   std::fflush(stdout);
 }
 
+std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
+  if (time.step > 0) return {{time.step, "fixed"}};
+  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"},
+                         // A start from rest gives no advective limit: a hundredth of the run is
+                         // then small enough.
+                         {time.end / 100, "start"}};
+  if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
+  if (time.step_max > 0) all.push_back({time.step_max, "step_max"});
+  return all;
+}
+
 Limit stable_dt(const Solver& solver, const TimeSetup& time) {
-  Limit limit{solver.advective_dt(time.courant), "advective"};
-  // A start from rest gives no advective limit: a hundredth of the run is then small enough.
-  limit = tighter(limit, {time.end / 100, "start"});
-  limit = tighter(limit, {solver.elastic_dt(), "elastic"});
-  if (time.step_max > 0) limit = tighter(limit, {time.step_max, "step_max"});
-  if (time.step > 0) limit = {time.step, "fixed"};
+  Limit limit;
+  for (const Limit& other : limits(solver, time)) limit = tighter(limit, other);
   return limit;
 }
 

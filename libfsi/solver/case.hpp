@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libfsi/core/options.hpp"
 #include "libfsi/mesh/read.hpp"
@@ -30,6 +31,7 @@ struct OutputSetup {
 struct SolidSetup {
   std::optional<shapes::Shape> shape;
   std::string name = "none";
+  Real thickness = 0;  ///< the least of its dimensions
 };
 
 /// A case as the user described it.
@@ -51,7 +53,10 @@ Case read_case(Options& options, const std::string& driver);
 /// case's length and velocity.
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity);
 
-/// The next step may be this long: the advective limit, the fixed step, the largest step.
+/// Collective. Every limit on the time step; a fixed step is the only one.
+std::vector<Limit> limits(const Solver& solver, const TimeSetup& time);
+
+/// Collective. The smallest of them.
 Limit stable_dt(const Solver& solver, const TimeSetup& time);
 
 }  // namespace fsi

@@ -52,6 +52,13 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
   io::write_text(which.output.directory + "/run.yaml", options.yaml());
   open_tables();
   io::write_text(which.output.directory + "/summary.json", summary("failed"));
+  std::string line = "limits on dt:";
+  for (const Limit& limit : limits(solver_, which.time)) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), " %s %.3g", limit.name.c_str(), limit.dt);
+    line += limit.dt < 1e300 ? text.data() : " " + limit.name + " none";
+  }
+  if (rank() == 0) std::printf("%s\n", line.c_str());
 }
 
 Output::~Output() {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "libfsi/core/error.hpp"
@@ -11,7 +12,7 @@ Real length(Options& options, const std::string& name, Real fallback, const std:
 }
 
 /// The shape about the origin, its axis along x. With -help every shape's options are listed.
-shapes::Shape undeformed(Options& options, const std::string& name) {
+shapes::Shape undeformed(Options& options, const std::string& name, Real& thickness) {
   shapes::Shape shape = shapes::sphere(1);
   const bool all = options.help();
   if (all || name == "torus") {
@@ -19,6 +20,7 @@ shapes::Shape undeformed(Options& options, const std::string& name) {
     const Real r = length(options, "solid_minor_radius", 0.1, "torus: of the tube");
     require(r < R, "option -solid_minor_radius must be smaller than -solid_major_radius");
     shape = shapes::torus(R, r);
+    thickness = 2 * r;
   }
   if (all || name == "ellipsoid") {
     const Vec3 axes = options.vec3("solid_semi_axes", {0.4, 0.25, 0.25},
@@ -26,15 +28,18 @@ shapes::Shape undeformed(Options& options, const std::string& name) {
     require(axes.x > 0 && axes.y > 0 && axes.z > 0,
             "option -solid_semi_axes: all three must be > 0");
     shape = shapes::ellipsoid(axes);
+    thickness = 2 * std::min({axes.x, axes.y, axes.z});
   }
   if (all || name == "sphere" || name == "disk" || name == "cylinder" || name == "capsule") {
     const Real r = length(options, "solid_radius", 0.2, "sphere, disk, cylinder, capsule");
+    thickness = 2 * r;
     if (name == "sphere") shape = shapes::sphere(r);
     if (all || name != "sphere") {
       const Real h =
           length(options, "solid_height", 0.2, "disk, cylinder, capsule: along the axis");
       if (name == "capsule") shape = shapes::capsule(r, h);
       if (name == "disk" || name == "cylinder") shape = shapes::cylinder(r, h);
+      if (name != "capsule") thickness = std::min(thickness, h);
     }
   }
   return shape;
@@ -63,7 +68,7 @@ SolidSetup read_solid(Options& options, Physics& physics) {
                  "how deformation is tracked");
   if (solid.name == "none" && !options.help()) return solid;
 
-  const shapes::Shape shape = undeformed(options, solid.name);
+  const shapes::Shape shape = undeformed(options, solid.name, solid.thickness);
   const Vec3 centre = options.vec3("solid_center", {0.5, 0.5, 0.5},
                                    {.help = "centre of the shape", .unit = "length"});
   if (options.given("solid_axis")) {
