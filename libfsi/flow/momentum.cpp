@@ -59,9 +59,12 @@ void viscous_rest(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
     if (!weights.non_orthogonal && excess == 0) continue;
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Tensor L_f = (1 - weights.lambda[f]) * L[P] + weights.lambda[f] * L[N];
-    const Vec3 flux = mu[f] * dot(L_f, weights.k[f]), S = excess * mesh.Sf[f];
-    rest[P] += flux + dot(transpose(L[P]), S);
-    rest[N] -= flux + dot(transpose(L[N]), S);
+    const Vec3 flux = mu[f] * dot(L_f, weights.k[f]);
+    rest[P] += flux;
+    rest[N] -= flux;
+    if (excess == 0) continue;
+    rest[P] += excess * dot(transpose(L[P]), mesh.Sf[f]);
+    rest[N] -= excess * dot(transpose(L[N]), mesh.Sf[f]);
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     if (open_face[f - mesh.n_internal] != 0) continue;
