@@ -128,11 +128,12 @@ void FieldWriter::write(Real t, std::span<const NamedField> fields) {
   }
   std::string path, reason;
   if (rank() == 0) {
+    const bool anew = !entries_.empty() && entries_.back().t == t;
     std::array<char, 48> name{};
-    std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size());
+    std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size() - (anew ? 1 : 0));
     path = directory_ + "/" + name.data();
     reason = put(path, *image);
-    if (reason.empty()) {
+    if (reason.empty() && !anew) {
       entries_.push_back({name.data(), t});
       const std::string text = series();
       reason =

@@ -36,9 +36,9 @@ class FieldWriter {
   FieldWriter(std::string directory, const Mesh& mesh,
               Real resume_at = -std::numeric_limits<Real>::infinity());
 
-  /// Collective. Errors: Error{numerics} naming field, cell and place of a value that is not
-  /// finite: nothing is then written. Error{io} when the file cannot be written; the series is as
-  /// it was.
+  /// Collective. The last time, given again, takes its own place. Errors: Error{numerics} naming
+  /// field, cell and place of a value that is not finite: nothing is then written. Error{io} when
+  /// the file cannot be written; the series is as it was.
   void write(Real t, std::span<const NamedField> fields);
 
  private:

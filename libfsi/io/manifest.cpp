@@ -46,7 +46,7 @@ void write_text(const std::string& file, const std::string& text) {
 }
 
 std::string json(const Summary& s) {
-  const Real work = static_cast<Real>(s.cells) * static_cast<Real>(s.steps);
+  const Real work = static_cast<Real>(s.cells) * static_cast<Real>(s.steps - s.first_step);
   std::string phases;
   for (const auto& [name, seconds] : s.phases)
     phases += (phases.empty() ? "" : ", ") + quoted(name) + ": " + number(seconds);

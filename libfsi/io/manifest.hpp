@@ -14,6 +14,7 @@ struct Summary {
   GlobalIndex cells = 0;
   int ranks = 1;
   std::int64_t steps = 0, rejected_steps = 0;
+  std::int64_t first_step = 0;  ///< taken before a restart, outside wall_seconds
   Real t = 0, wall_seconds = 0, solid_volume_drift = 0, divergence_max = 0;
   std::map<std::string, Real> phases;  ///< seconds
 };

@@ -40,6 +40,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
   if (which.output.restart) {
     checkpoints_.read(snapshot());
     solver_.resume();
+    saved_step_ = solver_.state().step;
     for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
     if (rank() == 0)
       std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
@@ -69,6 +70,7 @@ Output::~Output() {
 io::Snapshot Output::snapshot() {
   io::Snapshot all("driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no"));
   solver_.list(all);
+  all.add("rejected_steps", &solver_.report().rejected);
   if (solver_.body()) record_.list(all);
   return all;
 }
@@ -143,7 +145,9 @@ void Output::write_fields() {
   fields_at_ = s.t;
 }
 
-void Output::write_checkpoint() { checkpoints_.write(snapshot()); }
+void Output::write_checkpoint() {
+  if (checkpoints_.write(snapshot())) saved_step_ = solver_.state().step;
+}
 
 void Output::write_progress(const Limit& limit, Real dt) {
   const State& s = solver_.state();
@@ -168,6 +172,7 @@ std::string Output::summary(const std::string& status) const {
   s.cells = solver_.mesh().n_global;
   s.ranks = ranks();
   s.steps = solver_.state().step;
+  s.first_step = first_step_;
   s.rejected_steps = solver_.report().rejected;
   s.t = solver_.state().t;
   s.wall_seconds = watch_.seconds();
@@ -182,7 +187,8 @@ Ending Output::finish() {
   const bool complete = failure.empty() && !interrupted_;
   divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
   if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
-  if (!complete || case_.output.checkpoint_interval > 0) write_checkpoint();
+  const bool saved = saved_step_ == solver_.state().step;
+  if (!complete || (case_.output.checkpoint_interval > 0 && !saved)) write_checkpoint();
   const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
   finished_ = true;
   io::write_text(case_.output.directory + "/summary.json", summary(status));

@@ -167,6 +167,7 @@ void SolidRecord::list(io::Snapshot& snapshot) {
   add_vector("zeta", zeta_);
   snapshot.add("tracker_started", &started_);
   snapshot.add("volume_0", &volume_0_);
+  snapshot.add("drift", &drift_);
 }
 
 }  // namespace fsi

@@ -92,6 +92,7 @@ class Solver {
   const std::optional<Body>& body() const { return body_; }
   std::optional<Body>& body() { return body_; }
   const Physics& physics() const { return physics_; }
+  StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }

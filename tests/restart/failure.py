@@ -52,9 +52,19 @@ def main():
     for file in ("flow.csv", "solid.csv"):
         with open(os.path.join(out, file), encoding="utf-8") as table:
             check("nan" not in table.read().lower(), f"{file} holds numbers only")
+    command += ["-checkpoint_interval", "0.25"]
     resumed = run([*command, "-time_end", "0.5", "-restart"])
     check(resumed.returncode == 0, "its checkpoint serves to go on " + resumed.stderr)
     check(summary(out)["status"] == "complete", "to the end")
+    check(summary(out)["rejected_steps"] == 9, "the rejected steps are remembered")
+    kept = [name for name in sorted(os.listdir(out)) if name.startswith("checkpoint_")]
+    again = run([*command, "-time_end", "0.5", "-restart"])
+    with open(os.path.join(out, "fields.hdf.series"), encoding="utf-8") as file:
+        times = [entry["time"] for entry in json.load(file)["files"]]
+    check(again.returncode == 0 and len(set(times)) == len(times),
+          f"gone on with at its end it lists every time once: {times}")
+    check(kept == [name for name in sorted(os.listdir(out)) if name.startswith("checkpoint_")],
+          f"and its two checkpoints, of different times, stay: {kept}")
 
     stopped = run([*command, "-time_end", "1000", "-output_interval", "0", "-max_wall_time", "1"])
     check(stopped.returncode == 5, f"out of time: exit code 5 ({stopped.returncode})")

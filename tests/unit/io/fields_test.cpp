@@ -154,6 +154,10 @@ TEST(Fields, ARestartTakesUpTheSeries) {
     EXPECT_FALSE(exists(folder / "fields_0002.hdf"));
     writer.write(0.25, fields);
   }
+  {
+    FieldWriter writer(folder.path(), mesh, 0.25);
+    writer.write(0.25, fields);
+  }
   EXPECT_EQ(test::content(folder / "fields.hdf.series"),
             "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n"
             "    {\"name\": \"fields_0000.hdf\", \"time\": 0},\n"

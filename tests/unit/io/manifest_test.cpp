@@ -27,6 +27,12 @@ TEST(Manifest, SummaryIsJson) {
             "  \"solid_volume_drift\": null,\n  \"divergence_max\": 0\n}\n");
 }
 
+TEST(Manifest, ARestartTimesItsOwnSteps) {
+  io::Summary summary;
+  summary.cells = 100, summary.steps = 30, summary.first_step = 20, summary.wall_seconds = 2;
+  EXPECT_NE(io::json(summary).find("\"us_per_cell_step\": 2000,"), std::string::npos);
+}
+
 TEST(Manifest, TextReplacesTheOldOne) {
   const Folder folder;
   io::make_directory(folder / "a/b");
