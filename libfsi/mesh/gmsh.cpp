@@ -1,6 +1,7 @@
 #include "libfsi/mesh/gmsh.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -352,7 +353,8 @@ RawMesh parse_gmsh(const std::string& file, std::string text) {
 
 RawMesh read_gmsh(const std::string& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw Error(Kind::input, "mesh file \"" + file + "\" cannot be opened");
+  if (!in || std::filesystem::is_directory(file))
+    throw Error(Kind::input, "mesh file \"" + file + "\" cannot be opened, or it is a folder");
   const auto size = in.tellg();
   std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
   in.seekg(0);

@@ -80,6 +80,7 @@ OPTIONS = [
     option("yaml key twice", "", "twice", yaml="time_end: 1\ntime_end: 2\n"),
     option("no mesh", "", "-mesh", mesh=None),
     option("mesh not there", "-mesh nowhere.msh", "nowhere.msh", "cannot be opened", mesh=None),
+    option("mesh a folder", "-mesh .", "\".\"", "is a folder", mesh=None),
     option("yaml not there", "nowhere.yaml", "nowhere.yaml", "cannot be opened", mesh=None),
     option("yaml broken", "", "not valid YAML", yaml="fluid: {density: [1, 2\n time: }"),
     option("yaml unknown key", "", "-fluid_colour", yaml="fluid: {colour: 3}\n"),
