@@ -193,6 +193,38 @@ TEST(Kinematics, AdvectionIsOfSecondOrderInSpace) {
   }
 }
 
+/// L2 error at t = 1/2 of B in u = (U + sin 2 pi y, V): with x = X + s(Y, t), y = Y + V t,
+/// F_xy = ds/dY = g = (sin 2 pi y - sin 2 pi (y - V t)) / V and B = F F^T.
+Real sheared(const test::BoxFile& box, Real courant) {
+  constexpr Real U = 0.7, V = 1, t = 0.5;
+  Full run(box);
+  run.set_phi([](const Vec3& x) { return Vec3{U + std::sin(2 * pi * x.y), V, 0}; });
+  for (Index c = 0; c < run.mesh.n_cells; ++c)
+    run.L[c] = shear(2 * pi * std::cos(2 * pi * run.mesh.C[c].y));
+  const int steps = static_cast<int>(std::lround((U + 1 + V) * t * box.n[0] / courant));
+  for (int i = 0; i < steps; ++i) run.step(t / steps);
+  Sum squares;
+  for (Index c = 0; c < run.mesh.n_owned; ++c) {
+    const Real y = run.mesh.C[c].y;
+    const Real g = (std::sin(2 * pi * y) - std::sin(2 * pi * (y - V * t))) / V;
+    const SymTensor e = run.Bt[c] - SymTensor{1 + g * g, g, 0, 1, 0, 1};
+    squares.add(run.mesh.V[c] * (e.xx * e.xx + 2 * e.xy * e.xy + e.yy * e.yy + e.zz * e.zz));
+  }
+  return std::sqrt(squares.total());
+}
+
+TEST(Kinematics, SmoothShearIsOfSecondOrder) {
+  for (const bool simplex : {false, true}) {
+    const Real coarse = sheared(plane(24, simplex, true), 0.4),
+               fine = sheared(plane(48, simplex, true), 0.4);
+    const Real order = std::log2(coarse / fine);
+    if (rank() == 0)
+      std::printf("B in a smooth shear, %s: %.3e %.3e order %.2f\n",
+                  simplex ? "triangles" : "quads", coarse, fine, order);
+    EXPECT_GE(order, simplex ? 1.7 : 1.9);
+  }
+}
+
 // [Matsumiya25] 2.3: no deformation is kept where alpha < 0.1.
 TEST(Kinematics, ResetsWhereThereIsHardlyASolid) {
   Full run(plane(8, false, false));
