@@ -29,12 +29,13 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-void make_directory(const std::string& directory) {
+const std::string& make_directory(const std::string& directory) {
   std::error_code code;
   if (rank() == 0) std::filesystem::create_directories(directory, code);
   if (!all_of_ranks(!code))
     throw Error(Kind::io,
                 "directory \"" + directory + "\" cannot be made: " + broadcast(code.message()));
+  return directory;
 }
 
 void write_text(const std::string& file, const std::string& text) {

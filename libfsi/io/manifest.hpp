@@ -19,8 +19,8 @@ struct Summary {
   std::map<std::string, Real> phases;  ///< seconds
 };
 
-/// Collective. Makes the directory. Errors: Error{io}.
-void make_directory(const std::string& directory);
+/// Collective. Makes the directory and returns its name. Errors: Error{io}.
+const std::string& make_directory(const std::string& directory);
 /// Collective. Writes `text` to a file through a temporary one. Errors: Error{io}.
 void write_text(const std::string& file, const std::string& text);
 /// summary.json as text; a number that is not finite becomes null.

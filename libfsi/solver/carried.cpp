@@ -10,15 +10,6 @@
 #include "libfsi/vof/fill.hpp"
 
 namespace fsi {
-namespace {
-
-const std::string& made(const std::string& directory) {
-  io::make_directory(directory);
-  return directory;
-}
-
-}  // namespace
-
 Carried::Carried(const Mesh& mesh, vof::Motion motion, const shapes::Shape& shape)
     : mesh_(mesh),
       motion_(std::move(motion)),
@@ -60,7 +51,7 @@ CarriedOutput::CarriedOutput(const Case& which, const Options& options, const Ca
     : case_(which),
       options_(options),
       carried_(carried),
-      lock_(made(which.output.directory)),
+      lock_(io::make_directory(which.output.directory)),
       sample_(which.output.sample_interval),
       field_(which.output.field_interval) {
   require(!which.output.restart && which.output.checkpoint_interval == 0,

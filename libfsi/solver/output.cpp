@@ -15,12 +15,6 @@
 namespace fsi {
 namespace {
 
-/// The directory, made if it is not there: what the members of Output need first.
-const std::string& made(const std::string& directory) {
-  io::make_directory(directory);
-  return directory;
-}
-
 /// `text` of rank 0 decides for all.
 bool agreed(bool holds) { return broadcast(holds ? "yes" : "") == "yes"; }
 
@@ -31,7 +25,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       options_(options),
       solver_(solver),
       driver_(driver),
-      lock_(made(which.output.directory)),
+      lock_(io::make_directory(which.output.directory)),
       checkpoints_(which.output.directory, solver.mesh()),
       record_(which.solid.name == "torus"),
       sample_(which.output.sample_interval),

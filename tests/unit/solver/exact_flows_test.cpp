@@ -6,34 +6,16 @@
 #include <numbers>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_mesh.hpp"
+#include "tests/unit/support/flow_errors.hpp"
 
 namespace fsi {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
 
-struct Errors {
-  Real u = 0, p = 0;
-};
-
-/// L2 errors against exact fields; the mean of the pressure difference is taken out.
-template <class U, class P>
-Errors errors(const Solver& solver, const U& u, const P& p) {
-  const Mesh& mesh = solver.mesh();
-  Sum mean, squares, p_squares;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    mean.add(mesh.V[c] * (solver.state().p[c] - p(mesh.C[c])));
-  const Real shift = mean.total() / mesh.total_volume;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    squares.add(mesh.V[c] * norm2(solver.state().u[c] - u(mesh.C[c])));
-    const Real e = solver.state().p[c] - p(mesh.C[c]) - shift;
-    p_squares.add(mesh.V[c] * e * e);
-  }
-  return {std::sqrt(squares.total() / mesh.total_volume),
-          std::sqrt(p_squares.total() / mesh.total_volume)};
-}
+using test::Errors;
+using test::errors;
 
 Errors taylor_green(Index n, int steps) {
   const Mesh mesh = test::box_mesh({.n = {n, n, 0}, .periodic = {true, true, false}});

@@ -7,30 +7,16 @@
 #include <cstdio>
 #include <numbers>
 
-#include "libfsi/analysis/measures.hpp"
-#include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
+#include "tests/unit/support/flow_errors.hpp"
 
 namespace fsi {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
 
-struct Errors {
-  Real u = 0, p = 0;
-};
-
-/// L2 errors against exact fields; the mean of the pressure difference is taken out.
-template <class U, class P>
-Errors errors(const Solver& solver, const U& u, const P& p) {
-  const Mesh& mesh = solver.mesh();
-  const State& s = solver.state();
-  Sum mean;
-  for (Index c = 0; c < mesh.n_owned; ++c) mean.add(mesh.V[c] * (s.p[c] - p(mesh.C[c])));
-  const Real shift = mean.total() / mesh.total_volume;
-  return {analysis::norms(mesh, [&](Index c) { return s.u[c] - u(mesh.C[c]); }).l2,
-          analysis::norms(mesh, [&](Index c) { return s.p[c] - p(mesh.C[c]) - shift; }).l2};
-}
+using test::Errors;
+using test::errors;
 
 Errors kovasznay(const Mesh& mesh, Real dt) {
   constexpr Real nu = 1.0 / 40;
