@@ -21,7 +21,7 @@ Ending body() {
   // 3 solver and initial state
   Solver solver(mesh, which.physics, {.conditions = conditions});
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (which.solid.shape) solver.put_solid(*which.solid.shape);
+  if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
 
   // 4 what to write
   Output output(which, options, solver, "cavity");

@@ -25,10 +25,12 @@ class Band {
   const std::vector<Index>& cells() const { return cells_; }
   /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
   const std::vector<Index>& faces() const { return faces_; }
+  /// Row i: owned cells that share a vertex with halo cell n_owned + i.
+  const Csr& around_halo() const { return halo_neighbours_; }
 
  private:
   const Mesh& mesh_;
-  Csr halo_neighbours_;  // owned cells around every halo cell
+  Csr halo_neighbours_;
   std::vector<Index> between_ranks_, core_, last_core_, cells_, faces_;
   std::vector<std::int32_t> cell_stamp_, face_stamp_;
   std::int32_t calls_ = 0;

@@ -103,11 +103,12 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
   diagonal_.resize(systems_.size());
 }
 
-void Momentum::assemble(const FaceField<Real>& mu, Real theta_now, Real dt) {
+void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
+                        Real dt) {
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
     for (Index f = 0; f < mesh_.n_faces; ++f) {
-      Real a = theta_now * mu[f] * weights_.g[f];
+      Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
       const Index P = mesh_.owner[f];
       if (f < mesh_.n_internal) {
         matrix_.off_diagonal[f] = -a;
@@ -142,10 +143,13 @@ void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>
 int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
                       const CellField<Tensor>& L, const FaceField<Real>& phi,
-                      const FaceField<Real>& mu, bool mu_varies, const Sources& sources, Real dt) {
+                      const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
+                      bool stiff, const Sources& sources, Real dt) {
   constexpr int damped_steps = 2;
   const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
-  if (mu_varies || assembled_ != std::array{theta_now, dt}) assemble(mu, theta_now, dt);
+  if (mu_varies || stiff || stiff_ || assembled_ != std::array{theta_now, dt})
+    assemble(mu, kappa, theta_now, dt);
+  stiff_ = stiff;
 
   convection(now_, phi, u, u_b, L, weights_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) now_[c] *= -rho_;

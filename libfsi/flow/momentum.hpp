@@ -44,7 +44,7 @@ struct Sources {
 
 /// The predictor [Matsumiya25] (12), second order in time (Adams-Bashforth for convection and the
 /// explicit viscous rest, theta = 1/2 for the compact viscous term), in increments w = u* - u^n:
-///   rho V w / dt - theta sum_f mu g (w_N - w_P)
+///   rho V w / dt - sum_f (theta mu + kappa) g (w_N - w_P)
 ///     = -rho AB(conv) + visc(u^n) + AB(rest) + V (-grad p^n + f + S).
 /// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start
 /// leaves.
@@ -54,11 +54,13 @@ class Momentum {
            Real rho, Real mu_0);
 
   /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
+  /// mu_varies: in time and space; stiff: kappa is not zero, else it is not read.
   /// Returns iterations of all components. Errors: Error{numerics}.
   int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
               const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
               const CellField<Tensor>& L, const FaceField<Real>& phi, const FaceField<Real>& mu,
-              bool mu_varies, const Sources& sources, Real dt);
+              const FaceField<Real>& kappa, bool mu_varies, bool stiff, const Sources& sources,
+              Real dt);
 
   /// Explicit terms of the last step, and its length (0: none yet): part of a checkpoint.
   CellField<Vec3>& history() { return history_; }
@@ -70,7 +72,7 @@ class Momentum {
   const std::vector<char>& open_face() const { return open_face_; }
 
  private:
-  void assemble(const FaceField<Real>& mu, Real theta_now, Real dt);
+  void assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now, Real dt);
   void set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
                const CellField<Vec3>& grad_p, const FaceField<Real>& mu, const Sources& sources,
                Real theta_now, Real dt);
@@ -86,7 +88,8 @@ class Momentum {
   FaceMatrix matrix_;
   std::vector<std::vector<Real>> diagonal_;  // one a system
   std::vector<LinearSystem>
-      systems_;  // one, or one a component where a slip plane tells them apart
+      systems_;         // one, or one a component where a slip plane tells them apart
+  bool stiff_ = false;  // in the matrix in place
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

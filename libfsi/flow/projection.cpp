@@ -24,7 +24,8 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
   const auto damped = [&](Index f) {
-    return terms.dt / (terms.rho + 4 * terms.dt * terms.theta * terms.mu[f] / norm2(mesh.d[f]));
+    const Real implicit = terms.theta * terms.mu[f] + terms.kappa[f];
+    return terms.dt / (terms.rho + 4 * terms.dt * implicit / norm2(mesh.d[f]));
   };
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];

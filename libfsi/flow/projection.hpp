@@ -20,12 +20,13 @@ struct FluxTerms {
   const FaceField<Real>&
       balance;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
   const FaceField<Real>& mu;
+  const FaceField<Real>& kappa;  ///< implicit stand-in for elasticity; 0 outside the solid
   Real theta = 0.5, rho = 1, dt = 0;
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
 ///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
-///   d_f = dt / (rho + 4 dt theta mu_f / |d|^2).
+///   d_f = dt / (rho + 4 dt (theta mu_f + kappa_f) / |d|^2).
 /// The brace compares the compact with the averaged gradient of p and of the elastic normal stress;
 /// it vanishes for linear fields. Boundary: prescribed velocity, or the same with p_b at openings.
 /// On return every face of phi is set. u: owned and halo.

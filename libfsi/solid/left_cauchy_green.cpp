@@ -1,5 +1,6 @@
 #include "libfsi/solid/left_cauchy_green.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fsi::solid {
@@ -19,62 +20,53 @@ SymTensor stretch(const Tensor& L, const SymTensor& B) {
 
 }  // namespace
 
-void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells) {
-  for (const Index c : cells) {
-    SymGradient sum;
-    for (const Index f : mesh.cell_faces[c]) {
-      if (f >= mesh.n_internal) continue;
-      const bool owner = mesh.owner[f] == c;
-      const SymTensor dT = T[owner ? mesh.neighbour[f] : mesh.owner[f]] - T[c];
-      const Vec3& g = owner ? stencil.owner[f] : stencil.neighbour[f];
-      sum.x += g.x * dT, sum.y += g.y * dT, sum.z += g.z * dT;
-    }
-    grad[c] = sum;
-  }
-}
+LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh)
+    : Bt(mesh), mesh_(mesh), band_(mesh), old_(mesh), rate_(mesh) {}
 
-void set_undeformed(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const Mesh& mesh) {
-  for (Index c = 0; c < mesh.n_cells; ++c)
+void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
+  for (Index c = 0; c < mesh_.n_cells; ++c)
     Bt[c] = alpha[c] >= alpha_min ? std::sqrt(alpha[c]) * identity() : SymTensor{};
+  resume(alpha);
 }
 
-LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : mesh_(mesh), old_(mesh), rate_(mesh) {}
-
-void LeftCauchyGreen::rate(const CellField<SymTensor>& Bt, const FaceField<Real>& phi,
-                           const CellField<Tensor>& L, const GradientStencil& stencil,
-                           const Band& band, CellField<SymGradient>& grad) {
-  gradient(grad, Bt, stencil, mesh_, band.cells());
+void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
+  gradient(grad, Bt, carrier.stencil, mesh_, band_.cells());
   mesh_.halo.update(grad);
-  for (const Index c : band.core()) {
+  for (const Index c : band_.core()) {
     // -(1/V) sum_f phi_f (Bt_f - Bt_c), Bt_f = Bt_up + grad Bt_up . (x_f - x_up)
     SymTensor sum;
     for (const Index f : mesh_.cell_faces[c]) {
       if (f >= mesh_.n_internal)
         continue;  // nothing flows in but fluid; what leaves keeps its value
-      const bool owner = mesh_.owner[f] == c;
-      const Real out = owner ? phi[f] : -phi[f];
-      const Index up = phi[f] >= 0 ? mesh_.owner[f] : mesh_.neighbour[f];
+      const Real phi = carrier.phi[f];
+      const Index up = phi >= 0 ? mesh_.owner[f] : mesh_.neighbour[f];
       const SymTensor face = Bt[up] + along(grad[up], mesh_.face_centre(f, up) - mesh_.C[up]);
-      sum += out * (face - Bt[c]);
+      sum += (mesh_.owner[f] == c ? phi : -phi) * (face - Bt[c]);
     }
-    rate_[c] = stretch(L[c], Bt[c]) - (1 / mesh_.V[c]) * sum;
+    rate_[c] = stretch(carrier.L[c], Bt[c]) - (1 / mesh_.V[c]) * sum;
   }
 }
 
-void LeftCauchyGreen::transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha,
-                                const FaceField<Real>& phi, const CellField<Tensor>& L,
-                                const GradientStencil& stencil, const Band& band, Real dt,
+void LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                 CellField<SymGradient>& grad) {
-  for (const Index c : band.core()) old_[c] = Bt[c];
-  rate(Bt, phi, L, stencil, band, grad);
-  for (const Index c : band.core()) Bt[c] += dt * rate_[c];
+  for (const Index c : band_.core()) old_[c] = Bt[c];
+  rate(carrier, grad);
+  for (const Index c : band_.core()) Bt[c] += dt * rate_[c];
   mesh_.halo.update(Bt);
-  rate(Bt, phi, L, stencil, band, grad);
-  for (const Index c : band.core()) Bt[c] = 0.5 * (old_[c] + Bt[c] + dt * rate_[c]);
-  for (const Index c : band.last_core())
+  rate(carrier, grad);
+  for (const Index c : band_.core()) Bt[c] = 0.5 * (old_[c] + Bt[c] + dt * rate_[c]);
+  for (const Index c : band_.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};
   mesh_.halo.update(Bt);
+}
+
+void LeftCauchyGreen::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+                            std::span<const Index> cells) const {
+  for (const Index c : cells) aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
+}
+
+SymTensor LeftCauchyGreen::B(Index c, Real alpha) const {
+  return alpha >= alpha_min ? (1 / std::sqrt(alpha)) * Bt[c] : identity();
 }
 
 }  // namespace fsi::solid

@@ -1,52 +1,58 @@
 #pragma once
 // Kinematics of the solid: transport of Bt = alpha^(1/2) B, B the left Cauchy-Green tensor.
 
+#include <cmath>
 #include <span>
 
 #include "libfsi/field/band.hpp"
-#include "libfsi/field/field.hpp"
-#include "libfsi/operators/gradient.hpp"
+#include "libfsi/solid/carrier.hpp"
 
 namespace fsi::solid {
 
-/// Derivatives of a symmetric tensor along x, y, z.
-struct SymGradient {
-  SymTensor x, y, z;
-};
-/// Change along the vector d.
-inline SymTensor along(const SymGradient& g, const Vec3& d) {
-  return d.x * g.x + d.y * g.y + d.z * g.z;
-}
-
-/// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
-inline constexpr Real alpha_min = 0.1;
-
-/// Gradient of T on the listed owned cells, with zero gradient at boundaries.
-void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
-
-/// Bt with B = I, the undeformed state, where alpha >= alpha_min. Halo set.
-void set_undeformed(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const Mesh& mesh);
-
 /// d Bt/dt + div(u Bt) = L . Bt + Bt . L^T            [Matsumiya25] (10)
 /// with linear-upwind face values and Heun's method over dt, phi and L frozen. Second order in
-/// space; explicit. Works on the band of alpha at the end of the step.
+/// space; explicit. Works on the cells with alpha >= alpha_min.
 class LeftCauchyGreen {
  public:
   explicit LeftCauchyGreen(const Mesh& mesh);
 
-  /// Collective. Bt: owned and halo, of the start of the step, zero outside the band's last core.
-  /// alpha, band: of its end. L: on the cells of the band's core. On return Bt is set on owned
-  /// cells and halo, zero where alpha < alpha_min. grad: scratch.
-  void transport(CellField<SymTensor>& Bt, const CellField<Real>& alpha, const FaceField<Real>& phi,
-                 const CellField<Tensor>& L, const GradientStencil& stencil, const Band& band,
-                 Real dt, CellField<SymGradient>& grad);
+  /// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
+  static constexpr Real alpha_min = 0.1;
+  /// Where in a step the solid stands when the momentum equation is solved: at its end.
+  static constexpr Real ahead = 1;
+
+  /// Bt with B = I where alpha >= alpha_min. Halo set.
+  void set_undeformed(const CellField<Real>& alpha);
+  /// Renews what follows from Bt and alpha: after these were changed from outside.
+  void resume(const CellField<Real>& alpha) { band_.rebuild(alpha, alpha_min); }
+
+  /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
+  void mark(const CellField<Real>& alpha) { band_.rebuild(alpha, alpha_min); }
+  /// Owned cells on which `transport` reads L.
+  std::span<const Index> strained() const { return band_.core(); }
+
+  /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
+  /// zero where alpha < alpha_min. grad: scratch.
+  void transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                 CellField<SymGradient>& grad);
+
+  /// Sets B of a cell; then `resume`, halo included.
+  void set(Index c, const SymTensor& B, Real alpha) {
+    Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
+  }
+  /// aB = alpha B on the listed cells.
+  void weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+             std::span<const Index> cells) const;
+  /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
+  SymTensor B(Index c, Real alpha) const;
+
+  CellField<SymTensor> Bt;
 
  private:
-  void rate(const CellField<SymTensor>& Bt, const FaceField<Real>& phi, const CellField<Tensor>& L,
-            const GradientStencil& stencil, const Band& band, CellField<SymGradient>& grad);
+  void rate(const Carrier& carrier, CellField<SymGradient>& grad);
 
   const Mesh& mesh_;
+  Band band_;
   CellField<SymTensor> old_, rate_;
 };
 

@@ -1,18 +1,12 @@
 #include "libfsi/solid/neo_hookean.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "libfsi/core/eigen.hpp"
-
 namespace fsi::solid {
 
 NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh) {}
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
-                       const CellField<SymTensor>& Bt, const CellField<Real>& alpha,
-                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                       const CellField<SymTensor>& aB, const FaceWeights& weights,
+                       const GradientStencil& stencil, const Band& band,
                        CellField<SymGradient>& grad) {
   for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
@@ -24,8 +18,7 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 
-  for (const Index c : band.core())
-    tau_[c] = (std::sqrt(std::max(alpha[c], 0.0)) * G_) * dev(Bt[c]);
+  for (const Index c : band.core()) tau_[c] = G_ * dev(aB[c]);
   mesh_.halo.update(tau_);
   gradient(grad, tau_, stencil, mesh_, band.cells());
   mesh_.halo.update(grad);
@@ -52,24 +45,6 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
     balance[f] = dot(n, dot(tau_[N] - tau_[P] - along(grad_f, d), n));
   }
   mesh_.halo.update(force);
-}
-
-Real elastic_dt(const CellField<SymTensor>& Bt, const CellField<Real>& alpha, Real G, Real rho,
-                const Mesh& mesh, std::span<const Index> cells) {
-  Real dt = std::numeric_limits<Real>::max();
-  if (G <= 0) return dt;
-  for (const Index c : cells) {
-    Real area = 0;
-    for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm2(mesh.Sf[f]));
-    const Real h = mesh.V[c] / std::sqrt(area);
-    const Real lambda = std::max(std::sqrt(std::max(alpha[c], 0.0)) * eigen(Bt[c]).value[2], 1.0);
-    dt = std::min(dt, 0.8 * h * std::sqrt(rho / (G * lambda)));
-  }
-  return dt;
-}
-
-SymTensor B_of(const SymTensor& Bt, Real alpha) {
-  return alpha >= alpha_min ? (1 / std::sqrt(alpha)) * Bt : identity();
 }
 
 }  // namespace fsi::solid

@@ -1,45 +1,62 @@
 #pragma once
 // A soft solid and what moves it: everything a scene without solid does not have.
 
-#include <algorithm>
+#include <functional>
+#include <variant>
 
 #include "libfsi/field/band.hpp"
+#include "libfsi/io/checkpoint.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "libfsi/solid/left_cauchy_green.hpp"
+#include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/neo_hookean.hpp"
+#include "libfsi/solid/stiffness.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/fill.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi {
 
+/// How the deformation of the solid is tracked.
+using Kinematics = std::variant<solid::LeftCauchyGreen, solid::LogConformation>;
+enum class KinematicsKind { left_cauchy_green, log_conformation };
+
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
   /// Collective. Fills the undeformed shape.
-  Body(const Mesh& mesh, const shapes::Shape& shape, Real G)
-      : alpha(mesh),
-        Bt(mesh),
-        interface(mesh),
-        reconstruct_scratch(mesh),
-        advect_scratch(mesh),
-        band(mesh),
-        kinematics(mesh),
-        law(mesh, G),
-        grad(mesh),
-        filled(vof::fill(alpha, mesh, shape)) {
-    solid::set_undeformed(Bt, alpha, mesh);
-    band.rebuild(alpha, solid::alpha_min);
-    vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
+  Body(const Mesh& mesh, const shapes::Shape& shape, Real G, KinematicsKind kind);
+
+  /// Collective. Gives the solid a deformation to start from; det B = 1.
+  void set_B(const std::function<SymTensor(const Vec3&)>& B_0);
+  /// Collective. Renews what follows from alpha and the kinematics' unknown.
+  void resume();
+  /// Adds alpha and the kinematics' unknown to a checkpoint's list.
+  void list(io::Snapshot& snapshot);
+  /// Collective. Sets the band, aB and lambda from alpha and the kinematics' unknown.
+  void weigh();
+  /// Whether elasticity may be treated implicitly: the paper's scheme does not.
+  bool semi_implicit() const { return !std::holds_alternative<solid::LeftCauchyGreen>(kinematics); }
+  /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
+  Real ahead() const {
+    return std::visit([](const auto& k) { return k.ahead; }, kinematics);
+  }
+  /// B of a cell.
+  SymTensor B(Index c) const {
+    return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
   }
 
+  const Mesh& mesh;
   CellField<Real> alpha;     ///< volume fraction of the solid
-  CellField<SymTensor> Bt;   ///< alpha^(1/2) B
+  CellField<SymTensor> aB;   ///< alpha B, on the band's core
+  CellField<Real> lambda;    ///< largest eigenvalue of aB; owned and halo
+  Real t = 0;                ///< time of alpha and B
   vof::Interface interface;  ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;
   vof::AdvectScratch advect_scratch;
-  Band band;  ///< of alpha >= alpha_min
-  solid::LeftCauchyGreen kinematics;
+  Band band;  ///< of the cells that carry stress
+  Kinematics kinematics;
   solid::NeoHookean law;
+  solid::Stiffness stiffness;
   CellField<solid::SymGradient> grad;  ///< scratch of both
   vof::Filled filled;                  ///< volume and its error at the start
   vof::AdvectReport advected;          ///< of the last step

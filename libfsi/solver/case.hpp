@@ -32,6 +32,7 @@ struct SolidSetup {
   std::optional<shapes::Shape> shape;
   std::string name = "none";
   Real thickness = 0;  ///< the least of its dimensions
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
 };
 
 /// A case as the user described it.

@@ -124,6 +124,7 @@ void Output::write_row(const Limit& limit, Real dt) {
 }
 
 void Output::write_fields() {
+  solver_.synchronise();
   const Mesh& mesh = solver_.mesh();
   const State& s = solver_.state();
   CellField<Real> Q(mesh);

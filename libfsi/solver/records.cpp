@@ -99,7 +99,7 @@ std::vector<Real> values(const std::vector<Entry>& row) {
 
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
   CellField<SymTensor> B(mesh, identity());
-  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = solid::B_of(body.Bt[c], body.alpha[c]);
+  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = body.B(c);
   return B;
 }
 
@@ -138,7 +138,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   if (volume_0_ == 0) volume_0_ = m.volume;
   drift_ = m.volume / volume_0_ - 1;
   std::vector<Entry> row{{"t", solver.state().t}};
-  add(row, {"x", "y", "z"}, m.centroid);
+  add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);
   row.push_back({"volume", m.volume});
   add(row, {"nx", "ny", "nz"}, o.n);

@@ -17,15 +17,11 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
   snapshot.add("momentum_steps", &momentum_.steps_taken);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
-  if (!body_) return;
-  snapshot.add("alpha", body_->alpha);
-  snapshot.add("Bt", body_->Bt);
+  if (body_) body_->list(snapshot);
 }
 
 void Solver::resume() {
-  if (!body_) return;
-  vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
-  body_->band.rebuild(body_->alpha, solid::alpha_min);
+  if (body_) body_->resume();
 }
 
 Real Solver::advance(Real dt) {

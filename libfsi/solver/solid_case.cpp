@@ -64,8 +64,11 @@ SolidSetup read_solid(Options& options, Physics& physics) {
   physics.G = options.real("solid_shear_modulus", 1,
                            {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
   options.choice("solid_law", "neo_hookean", {"neo_hookean"}, "elastic law");
-  options.choice("solid_kinematics", "left_cauchy_green", {"left_cauchy_green"},
-                 "how deformation is tracked");
+  const std::string kinematics =
+      options.choice("solid_kinematics", "log_conformation",
+                     {"log_conformation", "left_cauchy_green"}, "how deformation is tracked");
+  solid.kinematics = kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
+                                                       : KinematicsKind::log_conformation;
   if (solid.name == "none" && !options.help()) return solid;
 
   const shapes::Shape shape = undeformed(options, solid.name, solid.thickness);

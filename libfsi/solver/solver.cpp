@@ -36,6 +36,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       L_(mesh),
       q_(mesh),
       mu_(mesh, physics.mu_f),
+      kappa_(mesh),
       balance_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
@@ -58,7 +59,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_, balance_, mu_, 1, physics_.rho, 0};
+  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_,
+                              mu_,      kappa_,  1,    physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
   projection_.project(state_.phi, q_, grad_q_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
@@ -68,8 +70,9 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   }
 }
 
-void Solver::put_solid(const shapes::Shape& shape) {
-  body_.emplace(mesh_, shape, physics_.G);
+void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
+  body_.emplace(mesh_, shape, physics_.G, kind);
+  body_->t = state_.t;
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
@@ -81,10 +84,12 @@ void Solver::put_solid(const shapes::Shape& shape) {
 void Solver::step(Real dt) {
   update_gradients();  // grad p^n, L^n
   if (body_) {
-    advance_interface(dt);  // d alpha/dt + div(alpha u) = 0           [Matsumiya25] (5)
-    transport_elastic(dt);  // dBt/dt + div(u Bt) = L.Bt + Bt.L^T      [Matsumiya25] (10)
-    mix_viscosity();        // mu = alpha mu_s + (1 - alpha) mu_f      [Matsumiya25] (3)
-    set_elastic_force();    // f = div(alpha^(1/2) G dev Bt)           [Matsumiya25] (11)
+    advance_interface(state_.t +
+                      body_->ahead() * dt);  // d alpha/dt + div(alpha u) = 0 [Matsumiya25] (5)
+    transport_elastic();  // dBt/dt + div(u Bt) = L.Bt + Bt.L^T      [Matsumiya25] (10)
+    weigh_stiffness(dt);  // kappa = 0.3 dt G alpha lambda            [Here] (3)
+    mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f      [Matsumiya25] (3)
+    set_elastic_force();  // f = div(alpha^(1/2) G dev Bt)           [Matsumiya25] (11)
   }
   predict_momentum(dt);    // du/dt + div(u u) = ...                  [Matsumiya25] (12)
   predict_flux(dt);        // phi* from u*                            [Rhie83]
@@ -101,24 +106,47 @@ void Solver::update_gradients() {
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (weights_.skewed || weights_.non_orthogonal || mu_varies()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
-  } else if (body_) {
-    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
-    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->interface.cells);
   }
 }
 
-void Solver::advance_interface(Real dt) {
+void Solver::synchronise() {
+  if (!body_ || body_->t == state_.t) return;
+  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  advance_interface(state_.t);
+  transport_elastic();
+}
+
+void Solver::advance_interface(Real t) {
   const Profile::Phase phase(profile_, vof_phase_);
-  body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u, dt, mesh_,
-                                body_->advect_scratch);
+  solid_dt_ = t - body_->t;
+  body_->t = t;
+  body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u, solid_dt_,
+                                mesh_, body_->advect_scratch);
   vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
 }
 
-void Solver::transport_elastic(Real dt) {
+void Solver::transport_elastic() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->band.rebuild(body_->alpha, solid::alpha_min);
-  body_->kinematics.transport(body_->Bt, body_->alpha, state_.phi, L_, u_stencil_, body_->band, dt,
-                              body_->grad);
+  const solid::Carrier carrier{state_.phi, state_.u, L_, u_stencil_, weights_};
+  std::visit(
+      [&](auto& k) {
+        k.mark(body_->alpha);
+        gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
+        k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+      },
+      body_->kinematics);
+  body_->weigh();
+}
+
+void Solver::weigh_stiffness(Real dt) {
+  const Profile::Phase phase(profile_, solid_phase_);
+  // Below half of the explicit limit there is nothing to make stable.
+  stiff_ = body_->semi_implicit() && dt > elastic_time() / 2;
+  if (stiff_) {
+    body_->stiffness.apply(kappa_, body_->lambda, physics_.G, dt, weights_, body_->band);
+  } else {
+    body_->stiffness.clear(kappa_);
+  }
 }
 
 void Solver::mix_viscosity() {
@@ -128,23 +156,23 @@ void Solver::mix_viscosity() {
 
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->law.apply(force_, balance_, body_->Bt, body_->alpha, weights_, u_stencil_, body_->band,
-                   body_->grad);
+  body_->law.apply(force_, balance_, body_->aB, weights_, u_stencil_, body_->band, body_->grad);
 }
 
 void Solver::predict_momentum(Real dt) {
   const Profile::Phase phase(profile_, momentum_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
-  report_.velocity_iterations = momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi,
-                                                  mu_, mu_varies(), {force_, body}, dt);
+  report_.velocity_iterations =
+      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, kappa_, mu_varies(),
+                        stiff_, {force_, body}, dt);
 }
 
 void Solver::predict_flux(Real dt) {
   const Profile::Phase phase(profile_, flux_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_,
-                              mu_,      momentum_.theta, physics_.rho, dt};
+  const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_, mu_,
+                              kappa_,   momentum_.theta, physics_.rho, dt};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 
@@ -170,7 +198,7 @@ void Solver::check() const {
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)
-    for (const Index c : body_->band.cells()) sum += body_->alpha[c] + trace(body_->Bt[c]);
+    for (const Index c : body_->band.cells()) sum += body_->alpha[c] + trace(body_->aB[c]);
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(Kind::numerics, "velocity, pressure or strain is not finite after step " +
                                     std::to_string(state_.step + 1));
@@ -187,10 +215,14 @@ Real Solver::advective_dt(Real courant) const {
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 
+Real Solver::elastic_time() const {
+  return global_min(
+      solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, body_->band.core()));
+}
+
 Real Solver::elastic_dt() const {
   if (!body_) return std::numeric_limits<Real>::max();
-  return global_min(solid::elastic_dt(body_->Bt, body_->alpha, physics_.G, physics_.rho, mesh_,
-                                      body_->band.core()));
+  return (body_->semi_implicit() ? 4 : 0.8) * elastic_time();
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

@@ -65,7 +65,8 @@ class Solver {
 
   /// Collective. Puts a solid of that undeformed shape into the fluid; before the first step.
   /// Errors: Error{input} where it is empty or leaves the mesh.
-  void put_solid(const shapes::Shape& shape);
+  void put_solid(const shapes::Shape& shape,
+                 KinematicsKind kind = KinematicsKind::log_conformation);
 
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
   void step(Real dt);
@@ -75,6 +76,10 @@ class Solver {
   /// report().failure then says why and the state is that before the step.
   Real advance(Real dt);
 
+  /// Collective. Brings a solid that stands between two steps to the state's time, for fields that
+  /// belong together. The next step goes on from there.
+  void synchronise();
+
   /// Adds all that the next step depends on to a checkpoint's list. After the solid is put in.
   void list(io::Snapshot& snapshot);
   /// Collective. Renews what follows from the listed state, once that was read.
@@ -82,7 +87,8 @@ class Solver {
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
-  /// Collective. Elastic limit of the solid; the largest number without one.
+  /// Collective. The largest step that resolves the solid's elastic waves, or, where these are
+  /// treated implicitly, that was found stable; the largest number without a solid.
   Real elastic_dt() const;
 
   const Mesh& mesh() const { return mesh_; }
@@ -108,8 +114,9 @@ class Solver {
 
  private:
   void update_gradients();
-  void advance_interface(Real dt);
-  void transport_elastic(Real dt);
+  void advance_interface(Real t);
+  void transport_elastic();
+  void weigh_stiffness(Real dt);
   void mix_viscosity();
   void set_elastic_force();
   void predict_momentum(Real dt);
@@ -118,6 +125,7 @@ class Solver {
   void hold_mean_velocity(Real dt);
   void check() const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
+  Real elastic_time() const;
 
   const Mesh& mesh_;
   Physics physics_;
@@ -129,13 +137,15 @@ class Solver {
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
   CellField<Real> q_;
-  FaceField<Real> mu_, balance_;
+  FaceField<Real> mu_, kappa_, balance_;
   GradientStencil u_stencil_;
   flow::Projection projection_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
   std::optional<Backup> backup_;
+  Real solid_dt_ = 0;    // length of the solid's step
+  bool stiff_ = false;   // whether kappa is not zero
   Real cells_norm_ = 0;  // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;

@@ -27,19 +27,22 @@ struct Full {
         weights(mesh),
         stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
         alpha(mesh, 1),
-        Bt(mesh, identity()),
         phi(mesh),
+        u(mesh),
         L(mesh),
-        band(mesh),
         kinematics(mesh),
+        Bt(kinematics.Bt),
         grad(mesh) {
-    band.rebuild(alpha, solid::alpha_min);
+    kinematics.set_undeformed(alpha);
   }
 
-  void set_phi(const std::function<Vec3(const Vec3&)>& u) {
-    for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(u(mesh.Cf[f]), mesh.Sf[f]);
+  void set_phi(const std::function<Vec3(const Vec3&)>& stream) {
+    for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(stream(mesh.Cf[f]), mesh.Sf[f]);
   }
-  void step(Real dt) { kinematics.transport(Bt, alpha, phi, L, stencil, band, dt, grad); }
+  void step(Real dt) {
+    kinematics.mark(alpha);
+    kinematics.transport(alpha, {phi, u, L, stencil, weights}, dt, grad);
+  }
   /// Largest component of Bt - B over all cells.
   Real error(const std::function<SymTensor(const Vec3&)>& B) const {
     Real worst = 0;
@@ -51,11 +54,11 @@ struct Full {
   FaceWeights weights;
   GradientStencil stencil;
   CellField<Real> alpha;
-  CellField<SymTensor> Bt;
   FaceField<Real> phi;
+  CellField<Vec3> u;
   CellField<Tensor> L;
-  Band band;
   solid::LeftCauchyGreen kinematics;
+  CellField<SymTensor>& Bt;
   CellField<solid::SymGradient> grad;
 };
 
@@ -230,17 +233,29 @@ TEST(Kinematics, ResetsWhereThereIsHardlyASolid) {
   Full run(plane(8, false, false));
   for (Index c = 0; c < run.mesh.n_cells; ++c)
     run.alpha[c] = run.mesh.C[c].x < 0.5 ? 1 : run.mesh.C[c].x < 0.6 ? 0.09 : 0;
-  solid::set_undeformed(run.Bt, run.alpha, run.mesh);
-  run.band.rebuild(run.alpha, solid::alpha_min);
+  run.kinematics.set_undeformed(run.alpha);
   run.alpha.fill(0);  // it dissolves, but for a column
   for (Index c = 0; c < run.mesh.n_cells; ++c)
     if (run.mesh.C[c].x < 0.125) run.alpha[c] = 1;
-  run.band.rebuild(run.alpha, solid::alpha_min);
   run.set_phi([](const Vec3&) { return Vec3{0.1, 0, 0}; });
   run.step(0.1);
   for (Index c = 0; c < run.mesh.n_cells; ++c) {
     EXPECT_EQ(run.Bt[c] == SymTensor{}, run.mesh.C[c].x > 0.125);
   }
+}
+
+// B = Bt / alpha^(1/2), and alpha B for the stress.
+TEST(Kinematics, TheDeformationOfACell) {
+  Full run(plane(4, false, false));
+  const SymTensor B{2, 0.5, 0, 1, 0, 1};
+  run.kinematics.set(0, B, 0.25);
+  EXPECT_EQ(run.Bt[0], 0.5 * B);
+  EXPECT_EQ(run.kinematics.B(0, 0.25), B);
+  EXPECT_EQ(run.kinematics.B(0, 0.05), identity());
+  run.alpha[0] = 0.25;
+  CellField<SymTensor> aB(run.mesh);
+  run.kinematics.weigh(aB, run.alpha, std::vector<Index>{0});
+  EXPECT_EQ(aB[0], 0.25 * B);
 }
 
 }  // namespace

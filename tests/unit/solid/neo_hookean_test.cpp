@@ -8,6 +8,7 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/neo_hookean.hpp"
+#include "libfsi/solid/stiffness.hpp"
 #include "tests/unit/support/box_file.hpp"
 
 namespace fsi {
@@ -22,7 +23,7 @@ struct Solid {
         weights(mesh),
         stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
         alpha(mesh, 1),
-        Bt(mesh, identity()),
+        aB(mesh, identity()),
         force(mesh),
         balance(mesh),
         band(mesh),
@@ -30,8 +31,8 @@ struct Solid {
         grad(mesh) {}
 
   void apply() {
-    band.rebuild(alpha, solid::alpha_min);
-    law.apply(force, balance, Bt, alpha, weights, stencil, band, grad);
+    band.rebuild(alpha, 0.1);
+    law.apply(force, balance, aB, weights, stencil, band, grad);
   }
   /// Sum of force times volume over all ranks.
   Vec3 total() const {
@@ -59,7 +60,7 @@ struct Solid {
   FaceWeights weights;
   GradientStencil stencil;
   CellField<Real> alpha;
-  CellField<SymTensor> Bt;
+  CellField<SymTensor> aB;
   CellField<Vec3> force;
   FaceField<Real> balance;
   Band band;
@@ -84,22 +85,22 @@ TEST(NeoHookean, TheUndeformedSolidPullsNowhere) {
     Solid s(box);
     for (Index c = 0; c < s.mesh.n_cells; ++c)
       s.alpha[c] = 0.5 + 0.5 * std::sin(10 * s.mesh.C[c].x * s.mesh.C[c].y);
-    solid::set_undeformed(s.Bt, s.alpha, s.mesh);
+    for (Index c = 0; c < s.mesh.n_cells; ++c) s.aB[c] = s.alpha[c] * identity();
     s.apply();
     for (Index c = 0; c < s.mesh.n_cells; ++c) ASSERT_LE(norm(s.force[c]), 1e-13);
     for (Index f = 0; f < s.mesh.n_faces; ++f) ASSERT_LE(std::abs(s.balance[f]), 1e-13);
   }
 }
 
-// A traceless linear Bt where alpha = 1: tau = G Bt, div tau is the same everywhere.
+// A traceless linear alpha B: tau = G alpha B, div tau is the same everywhere.
 TEST(NeoHookean, LinearStressIsExact) {
   for (const test::BoxFile& box : boxes()) {
     Solid s(box);
     const bool space = s.mesh.dim == 3;
     for (Index c = 0; c < s.mesh.n_cells; ++c) {
       const Vec3 x = s.mesh.C[c];
-      s.Bt[c] = {2 * x.x + x.y, 3 * x.y - x.x, space ? x.z : 0, x.y, space ? 2 * x.x : 0, 0};
-      s.Bt[c].zz = -s.Bt[c].xx - s.Bt[c].yy;
+      s.aB[c] = {2 * x.x + x.y, 3 * x.y - x.x, space ? x.z : 0, x.y, space ? 2 * x.x : 0, 0};
+      s.aB[c].zz = -s.aB[c].xx - s.aB[c].yy;
     }
     s.apply();
     // dx tau_xx + dy tau_xy + dz tau_xz = 2 + 3 + 1, dx tau_xy + dy tau_yy = -1 + 1,
@@ -119,7 +120,7 @@ TEST(NeoHookean, TheForceOfAClosedSolidSumsToZero) {
     for (Index c = 0; c < s.mesh.n_cells; ++c) {
       const Vec3 x = s.mesh.C[c] - Vec3{0.5, 0.5, s.mesh.dim == 3 ? 0.5 : 0};
       s.alpha[c] = norm(x) < 0.25 ? 1 : 0;
-      s.Bt[c] = s.alpha[c] * SymTensor{2, std::sin(20 * x.x), 0, 1 + x.y, x.z, 0.5};
+      s.aB[c] = s.alpha[c] * SymTensor{2, std::sin(20 * x.x), 0, 1 + x.y, x.z, 0.5};
     }
     s.apply();
     Real scale = 0;
@@ -135,7 +136,7 @@ TEST(NeoHookean, TheBalanceSeesAnAlternatingStress) {
   const auto sign = [&](Index c) {
     return std::lround(8 * s.mesh.C[c].x - 0.5) % 2 == 0 ? 1.0 : -1.0;
   };
-  for (Index c = 0; c < s.mesh.n_cells; ++c) s.Bt[c] = sign(c) * SymTensor{1, 0, 0, -1, 0, 0};
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.aB[c] = sign(c) * SymTensor{1, 0, 0, -1, 0, 0};
   s.apply();
   for (Index f = 0; f < s.mesh.n_internal; ++f) {
     const Index P = s.mesh.owner[f];
@@ -154,7 +155,7 @@ TEST(NeoHookean, TheForceIsTheSameAgain) {
     Solid s(box);
     for (Index c = 0; c < s.mesh.n_cells; ++c) {
       s.alpha[c] = norm(s.mesh.C[c] - Vec3{0.5, 0.5, s.mesh.dim == 2 ? 0 : 0.5}) < 0.25 ? 1 : 0;
-      s.Bt[c] = s.alpha[c] * SymTensor{s.mesh.C[c].x * s.mesh.C[c].y, 1, 0, 2, 0, 1};
+      s.aB[c] = s.alpha[c] * SymTensor{s.mesh.C[c].x * s.mesh.C[c].y, 1, 0, 2, 0, 1};
     }
     s.apply();
     std::vector<Vec3> first(s.force.all().begin(), s.force.all().end());
@@ -166,33 +167,52 @@ TEST(NeoHookean, TheForceIsTheSameAgain) {
 TEST(NeoHookean, LeavesNothingBehind) {
   Solid s({.n = {8, 8, 0}});
   for (Index c = 0; c < s.mesh.n_cells; ++c)
-    s.Bt[c] = SymTensor{s.mesh.C[c].x * s.mesh.C[c].y, 1, 0, 2, 0, 1};
+    s.aB[c] = SymTensor{s.mesh.C[c].x * s.mesh.C[c].y, 1, 0, 2, 0, 1};
   s.apply();
   s.alpha.fill(0);
-  s.Bt.fill({});
+  s.aB.fill({});
   s.apply();
   for (Index c = 0; c < s.mesh.n_cells; ++c) ASSERT_EQ(norm(s.force[c]), 0);
   for (Index f = 0; f < s.mesh.n_faces; ++f) ASSERT_EQ(s.balance[f], 0);
 }
 
-// dt = 0.8 h (rho / (G lambda))^(1/2); the largest eigenvalue of a sheared B.
-TEST(NeoHookean, StepResolvesTheElasticWave) {
+// h (rho / (G lambda))^(1/2); the largest eigenvalue of a sheared B.
+TEST(Stiffness, TimeOfTheElasticWave) {
   Solid s({.n = {10, 10, 0}});
   s.apply();
   const Real rho = 2, h = 0.1;
-  const auto dt = [&] {
-    return global_min(solid::elastic_dt(s.Bt, s.alpha, G, rho, s.mesh, s.band.core()));
+  CellField<Real> lambda(s.mesh);
+  const auto time = [&] {
+    solid::largest_stretch(lambda, s.aB, s.band.core());
+    return global_min(solid::elastic_time(lambda, G, rho, s.mesh, s.band.core()));
   };
-  EXPECT_NEAR(dt(), 0.8 * h * std::sqrt(rho / G), 1e-14);
-  s.Bt.fill({2, 1, 0, 1, 0, 1});  // g = 1: lambda = (3 + sqrt 5) / 2
-  EXPECT_NEAR(dt(), 0.8 * h * std::sqrt(rho / G / (1.5 + std::sqrt(1.25))), 1e-14);
-  EXPECT_EQ(solid::elastic_dt(s.Bt, s.alpha, 0, rho, s.mesh, s.band.core()),
+  EXPECT_NEAR(time(), h * std::sqrt(rho / G), 1e-14);
+  s.aB.fill({2, 1, 0, 1, 0, 1});  // g = 1: lambda = (3 + sqrt 5) / 2
+  EXPECT_NEAR(time(), h * std::sqrt(rho / G / (1.5 + std::sqrt(1.25))), 1e-14);
+  EXPECT_EQ(solid::elastic_time(lambda, 0, rho, s.mesh, s.band.core()),
             std::numeric_limits<Real>::max());
 }
 
-TEST(NeoHookean, TheDeformationOfACell) {
-  EXPECT_EQ(solid::B_of(SymTensor{1, 0.5, 0, 2, 0, 1}, 0.25), (SymTensor{2, 1, 0, 4, 0, 2}));
-  EXPECT_EQ(solid::B_of(SymTensor{}, 0.05), identity());
+// kappa = 0.3 dt G lambda on the faces of the solid, halved at its surface, nothing elsewhere and
+// nothing once it has left.
+TEST(Stiffness, LivesInTheSolidOnly) {
+  Solid s({.n = {8, 8, 0}});
+  const auto inside = [&](Index c) { return s.mesh.C[c].x < 0.5; };
+  CellField<Real> lambda(s.mesh);
+  for (Index c = 0; c < s.mesh.n_cells; ++c)
+    s.alpha[c] = inside(c) ? 1 : 0, lambda[c] = inside(c) ? 2 : 0;
+  s.band.rebuild(s.alpha, 0.5);
+  FaceField<Real> kappa(s.mesh);
+  solid::Stiffness stiffness(s.mesh);
+  const Real dt = 0.1, full = 0.3 * dt * G * 2;
+  stiffness.apply(kappa, lambda, G, dt, s.weights, s.band);
+  for (Index f = 0; f < s.mesh.n_faces; ++f) {
+    const bool P = inside(s.mesh.owner[f]);
+    const bool N = f < s.mesh.n_internal ? inside(s.mesh.neighbour[f]) : P;
+    EXPECT_NEAR(kappa[f], P && N ? full : P || N ? full / 2 : 0, 1e-15);
+  }
+  stiffness.clear(kappa);
+  for (Index f = 0; f < s.mesh.n_faces; ++f) EXPECT_EQ(kappa[f], 0);
 }
 
 }  // namespace

@@ -62,18 +62,18 @@ Real interface_error(const Layers& layers, Index n, int steps_a_period) {
                 {.conditions = {{"bottom", walls}, {"top", walls}}});
   solver.start([&](const Vec3& x) { return Vec3{exact.u(x.y - 1, 0), 0, 0}; });
   solver.put_solid(shapes::translate(shapes::box({200, 1, 200}), {0, 1, 0}));
-  Body& body = *solver.body();
-  for (Index c = 0; c < mesh.n_cells; ++c) {
-    const Real g = exact.shear(std::clamp(mesh.C[c].y - 1, -0.5, 0.5), 0);
-    if (body.alpha[c] >= solid::alpha_min)
-      body.Bt[c] = std::sqrt(body.alpha[c]) * SymTensor{1 + g * g, g, 0, 1, 0, 1};
-  }
+  solver.body()->set_B([&](const Vec3& x) {
+    const Real g = exact.shear(std::clamp(x.y - 1, -0.5, 0.5), 0);
+    return SymTensor{1 + g * g, g, 0, 1, 0, 1};
+  });
   const Real period = 2, dt = period / steps_a_period;
   Real worst = 0;
   for (int step = 0; step < 2 * steps_a_period; ++step) {
     solver.step(dt);
     if (step < steps_a_period) continue;
-    // u at the interface y = 1.5: linear between the cells on either side
+    // u at the interface y = 1.5: linear between the cells on either side. The viscosity changes
+    // from face to face, so the kink of the profile is smeared over this distance and the one-sided
+    // limits are off by half a cell's worth of it.
     const Real y = 1.5, h = 1.0 / n;
     Real sum = 0, weights = 0;
     for (Index c = 0; c < mesh.n_owned; ++c) {

@@ -1,0 +1,33 @@
+#pragma once
+// What every kinematics of the solid is carried and strained by.
+
+#include <span>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/gradient.hpp"
+
+namespace fsi::solid {
+
+/// Derivatives of a symmetric tensor along x, y, z.
+struct SymGradient {
+  SymTensor x, y, z;
+};
+/// Change along the vector d.
+inline SymTensor along(const SymGradient& g, const Vec3& d) {
+  return d.x * g.x + d.y * g.y + d.z * g.z;
+}
+
+/// Gradient of T on the listed owned cells, with zero gradient at boundaries.
+void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
+              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+
+/// The flow, frozen over a step of the solid.
+struct Carrier {
+  const FaceField<Real>& phi;
+  const CellField<Vec3>& u;
+  const CellField<Tensor>& L;  ///< velocity gradient
+  const GradientStencil& stencil;
+  const FaceWeights& weights;
+};
+
+}  // namespace fsi::solid

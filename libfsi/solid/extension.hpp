@@ -1,0 +1,70 @@
+#pragma once
+// Values of the solid's interior carried outward into the fluid.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libfsi/field/band.hpp"
+#include "libfsi/field/field.hpp"
+
+namespace fsi::solid {
+
+/// Cells from this fraction of solid on know their own deformation.
+inline constexpr Real alpha_known = 0.5;
+
+/// Continues a tensor known inside the solid into the cells around it, and lets it relax to that
+/// continuation in the outermost cells of the solid, where the velocity gradient has a kink that
+/// the mesh does not resolve.
+///
+///   known    alpha >= 1/2
+///   inner    known, as are all face neighbours; known cells of thin parts, which have no inner
+///            cell around them, count as inner
+///   T_ext    = sum w T_k / sum w, w = 1 / |d|^2, over those vertex neighbours that are set
+///   already:
+///            the inner cells first, then layer by layer to three layers beyond the known cells
+///   known but not inner    T <- T_ext + exp(-2 Co) (T - T_ext), Co = |u - u_s| dt / h, u_s the
+///   mean
+///                          velocity of the solid
+///   not known              T <- T_ext; zero beyond the last layer
+///
+/// An interface cell forgets its own value while the solid beside it moves by half a cell relative
+/// to the whole, and keeps it in a solid that rests or moves as one. Any factor between 1/2 and 2
+/// gives nearly the same (doc/verification/disc.md).
+class Extension {
+ public:
+  explicit Extension(const Mesh& mesh);
+
+  /// Collective. known: the band of alpha >= alpha_known. T: owned and halo, before and after.
+  /// u: owned. dt = 0 does not relax.
+  void apply(CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known,
+             const CellField<Vec3>& u, Real dt);
+
+  /// Owned cells that the last call set, but for the last layer.
+  std::span<const Index> inside() const { return std::span(set_).first(inside_); }
+  /// Owned cells of the last layer.
+  std::span<const Index> last_layer() const { return std::span(set_).subspan(inside_); }
+
+ private:
+  struct Item {  ///< T_ext, and the number of the layer that set it; 0: not set
+    SymTensor T;
+    Real layer = 0;
+  };
+  void mark_inner(const CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known);
+  void list_ring(int layer, const Band& known);
+  void fill(int layer);
+  void relax(CellField<SymTensor>& T, const CellField<Vec3>& u, const Vec3& u_s, Real dt) const;
+  Vec3 mean(const CellField<Vec3>& u, const CellField<Real>& alpha, const Band& known) const;
+
+  const Mesh& mesh_;
+  std::vector<Real> h_;       // [n_owned] V / max |Sf|
+  std::vector<Real> weight_;  // beside mesh.cell_neighbours.index: 1 / |d|^2
+  CellField<Item> item_;
+  std::vector<Index> set_, last_set_, outer_, layer_;
+  std::vector<SymTensor> values_;
+  std::size_t inside_ = 0;
+  std::vector<std::int32_t> stamp_;
+  std::int32_t calls_ = 0;
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,62 @@
+#pragma once
+// Kinematics of the solid: transport of psi = log B, B the left Cauchy-Green tensor.
+
+#include <span>
+
+#include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/log_tensor.hpp"
+
+namespace fsi::solid {
+
+/// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
+/// on the cells that the solid fills by half or more, with face values by Koren's limiter, Heun's
+/// method over dt with phi and L frozen, then det B = 1 and the extension into the cells around. B
+/// = exp(psi) is positive definite whatever happens. Second order in space; the solver makes it so
+/// in time by taking it half a step ahead of the flow.
+class LogConformation {
+ public:
+  explicit LogConformation(const Mesh& mesh);
+
+  /// Below this fraction a cell carries no stress: round-off of the interface.
+  static constexpr Real alpha_min = 1e-9;
+  /// Where in a step the solid stands when the momentum equation is solved.
+  static constexpr Real ahead = 0.5;
+
+  /// psi = 0.
+  void set_undeformed(const CellField<Real>& alpha);
+  /// Renews what follows from psi and alpha: after psi was changed from outside. Collective.
+  void resume(const CellField<Real>& alpha);
+
+  /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
+  void mark(const CellField<Real>& alpha) { known_.rebuild(alpha, alpha_known); }
+  /// Owned cells on which `transport` reads L.
+  std::span<const Index> strained() const { return known_.cells(); }
+
+  /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
+  /// zero far from the solid. grad: scratch.
+  void transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                 CellField<SymGradient>& grad);
+
+  /// Sets B, positive definite, of a cell; then `resume`.
+  void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
+  /// aB = alpha B on the listed cells.
+  void weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+             std::span<const Index> cells) const;
+  /// B of a cell.
+  SymTensor B(Index c, Real alpha) const;
+
+  CellField<SymTensor> psi;
+
+ private:
+  void rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
+  /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
+  SymTensor isochoric(SymTensor p) const;
+
+  const Mesh& mesh_;
+  Band known_;
+  Extension extension_;
+  CellField<SymTensor> old_, rate_;
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,43 @@
+#include "libfsi/solid/log_tensor.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace fsi::solid {
+namespace {
+
+/// b(d) = d / (exp(d) - 1), the Bernoulli function.
+Real bernoulli(Real d) { return d == 0 ? 1 : d / std::expm1(d); }
+
+}  // namespace
+
+SymTensor exp(const SymTensor& psi) {
+  return apply_to_eigenvalues(eigen(psi), [](Real v) { return std::exp(v); });
+}
+
+SymTensor log(const SymTensor& B) {
+  return apply_to_eigenvalues(eigen(B), [](Real v) { return std::log(v); });
+}
+
+SymTensor log_rate(const Tensor& L, const SymTensor& psi) {
+  const Eigen e = eigen(psi);
+  std::array<Vec3, 3> Le;
+  for (std::size_t j = 0; j < 3; ++j) Le[j] = dot(L, e.vector[j]);
+  SymTensor rate;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& a = e.vector[i];
+    const Real m = 2 * dot(a, Le[i]);
+    rate += m * SymTensor{a.x * a.x, a.x * a.y, a.x * a.z, a.y * a.y, a.y * a.z, a.z * a.z};
+    for (std::size_t j = i + 1; j < 3; ++j) {
+      const Vec3& b = e.vector[j];
+      const Real d = e.value[j] - e.value[i], up = bernoulli(d);
+      // b(-d) = b(d) + d
+      const Real r = (up + d) * dot(a, Le[j]) + up * dot(b, Le[i]);
+      rate += r * SymTensor{2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
+                            2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
+    }
+  }
+  return rate;
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,65 @@
+#include "libfsi/solver/body.hpp"
+
+namespace fsi {
+namespace {
+
+Kinematics make(const Mesh& mesh, KinematicsKind kind) {
+  if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
+  return solid::LogConformation(mesh);
+}
+
+}  // namespace
+
+Body::Body(const Mesh& mesh_, const shapes::Shape& shape, Real G, KinematicsKind kind)
+    : mesh(mesh_),
+      alpha(mesh),
+      aB(mesh),
+      lambda(mesh),
+      interface(mesh),
+      reconstruct_scratch(mesh),
+      advect_scratch(mesh),
+      band(mesh),
+      kinematics(make(mesh, kind)),
+      law(mesh, G),
+      stiffness(mesh),
+      grad(mesh),
+      filled(vof::fill(alpha, mesh, shape)) {
+  std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
+  resume();
+}
+
+void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
+  std::visit(
+      [&](auto& k) {
+        for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
+      },
+      kinematics);
+  resume();
+}
+
+void Body::weigh() {
+  std::visit(
+      [&](auto& k) {
+        band.rebuild(alpha, k.alpha_min);
+        k.weigh(aB, alpha, band.core());
+      },
+      kinematics);
+  for (const Index c : band.last_core()) lambda[c] = 0;
+  solid::largest_stretch(lambda, aB, band.core());
+  mesh.halo.update(lambda);
+}
+
+void Body::list(io::Snapshot& snapshot) {
+  snapshot.add("alpha", alpha);
+  snapshot.add("solid_t", &t);
+  if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
+  if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
+}
+
+void Body::resume() {
+  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
+  std::visit([&](auto& k) { k.resume(alpha); }, kinematics);
+  weigh();
+}
+
+}  // namespace fsi
