@@ -27,6 +27,13 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+std::string object(const std::map<std::string, Real>& items) {
+  std::string text;
+  for (const auto& [name, value] : items)
+    text += (text.empty() ? "" : ", ") + quoted(name) + ": " + number(value);
+  return "{" + text + "}";
+}
+
 }  // namespace
 
 const std::string& make_directory(const std::string& directory) {
@@ -48,9 +55,6 @@ void write_text(const std::string& file, const std::string& text) {
 
 std::string json(const Summary& s) {
   const Real work = static_cast<Real>(s.cells) * static_cast<Real>(s.steps - s.first_step);
-  std::string phases;
-  for (const auto& [name, seconds] : s.phases)
-    phases += (phases.empty() ? "" : ", ") + quoted(name) + ": " + number(seconds);
   return "{\n  \"case\": " + quoted(s.case_name) + ",\n  \"status\": " + quoted(s.status) +
          ",\n  \"message\": " + quoted(s.message) + ",\n  \"cells\": " + std::to_string(s.cells) +
          ",\n  \"ranks\": " + std::to_string(s.ranks) +
@@ -58,8 +62,9 @@ std::string json(const Summary& s) {
          ",\n  \"rejected_steps\": " + std::to_string(s.rejected_steps) +
          ",\n  \"wall_seconds\": " + number(s.wall_seconds) +
          ",\n  \"us_per_cell_step\": " + number(work > 0 ? 1e6 * s.wall_seconds / work : 0) +
-         ",\n  \"phases\": {" + phases +
-         "},\n  \"solid_volume_drift\": " + number(s.solid_volume_drift) +
+         ",\n  \"phases\": " + object(s.phases) + ",\n  \"limits\": " + object(s.limits) +
+         ",\n  \"rejections\": " + object(s.rejections) +
+         ",\n  \"solid_volume_drift\": " + number(s.solid_volume_drift) +
          ",\n  \"divergence_max\": " + number(s.divergence_max) + "\n}\n";
 }
 

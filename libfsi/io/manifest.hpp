@@ -17,6 +17,8 @@ struct Summary {
   std::int64_t first_step = 0;  ///< taken before a restart, outside wall_seconds
   Real t = 0, wall_seconds = 0, solid_volume_drift = 0, divergence_max = 0;
   std::map<std::string, Real> phases;  ///< seconds
+  std::map<std::string, Real> limits;  ///< steps that each limit set, since the start or restart
+  std::map<std::string, Real> rejections;  ///< steps taken back, by reason, since then
 };
 
 /// Collective. Makes the directory and returns its name. Errors: Error{io}.

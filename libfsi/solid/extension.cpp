@@ -128,7 +128,7 @@ void Extension::apply(CellField<SymTensor>& T, const CellField<Real>& alpha, con
     if (item_[c].layer == 0) T[c] = {};
   for (const Index c : set_)
     if (item_[c].layer > outer_layer) T[c] = item_[c].T;
-  relax(T, u, mean(u, alpha, known), dt);
+  if (dt > 0) relax(T, u, mean(u, alpha, known), dt);
   mesh_.halo.update(T);
 }
 

@@ -47,7 +47,7 @@ void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad)
   }
 }
 
-void LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                 CellField<SymGradient>& grad) {
   for (const Index c : band_.core()) old_[c] = Bt[c];
   rate(carrier, grad);
@@ -58,11 +58,13 @@ void LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& car
   for (const Index c : band_.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};
   mesh_.halo.update(Bt);
+  return 0;
 }
 
-void LeftCauchyGreen::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+Real LeftCauchyGreen::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
                             std::span<const Index> cells) const {
   for (const Index c : cells) aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
+  return 1;
 }
 
 SymTensor LeftCauchyGreen::B(Index c, Real alpha) const {

@@ -32,16 +32,19 @@ class LeftCauchyGreen {
   std::span<const Index> strained() const { return band_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
-  /// zero where alpha < alpha_min. grad: scratch.
-  void transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+  /// zero where alpha < alpha_min. grad: scratch. Returns the
+  /// largest change of log B of the material over dt on this rank, which is not
+  /// watched: 0.
+  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                  CellField<SymGradient>& grad);
 
   /// Sets B of a cell; then `resume`, halo included.
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// aB = alpha B on the listed cells.
-  void weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+  /// aB = alpha B on the listed cells. Returns the smallest eigenvalue of B among them, which
+  /// this kinematics does not watch: 1.
+  Real weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;

@@ -25,6 +25,11 @@ SymTensor koren(const SymTensor& step, const SymTensor& slope) {
           koren(step.yy, slope.yy), koren(step.yz, slope.yz), koren(step.zz, slope.zz)};
 }
 
+Real largest(const SymTensor& t) {
+  return std::max({std::abs(t.xx), std::abs(t.xy), std::abs(t.xz), std::abs(t.yy), std::abs(t.yz),
+                   std::abs(t.zz)});
+}
+
 }  // namespace
 
 LogConformation::LogConformation(const Mesh& mesh)
@@ -48,12 +53,13 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
-void LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
+Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
                            CellField<SymGradient>& grad) {
   const FaceWeights& weights = carrier.weights;
   gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
   for (const Index c : extension_.last_layer()) grad[c] = {};
   mesh_.halo.update(grad);
+  Real fastest = 0;
   for (const Index c : cells) {
     // -(1/V) sum_f phi_f (psi_f - psi_c),
     // psi_f = psi_up + 2 w limited(psi_down - psi_up) + grad psi_up . skew, w the share of |d|
@@ -69,24 +75,35 @@ void LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       if (weights.skewed) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
-    rate_[c] = log_rate(carrier.L[c], psi[c]) - (1 / mesh_.V[c]) * sum;
+    const SymTensor strain = log_rate(carrier.L[c], psi[c]);
+    fastest = std::max(fastest, largest(strain));
+    rate_[c] = strain - (1 / mesh_.V[c]) * sum;
   }
+  return fastest;
 }
 
-void LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                 CellField<SymGradient>& grad) {
   for (const Index c : known_.cells()) old_[c] = psi[c];
   rate(known_.cells(), carrier, grad);
   for (const Index c : known_.cells()) psi[c] += dt * rate_[c];
   mesh_.halo.update(psi);
-  rate(known_.core(), carrier, grad);
+  const Real fastest = rate(known_.core(), carrier, grad);
   for (const Index c : known_.core()) psi[c] = isochoric(0.5 * (old_[c] + psi[c] + dt * rate_[c]));
+  for (const Index c : extension_.inside()) grad[c] = {};
   extension_.apply(psi, alpha, known_, carrier.u, dt);
+  return dt * fastest;
 }
 
-void LogConformation::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+Real LogConformation::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
                             std::span<const Index> cells) const {
-  for (const Index c : cells) aB[c] = alpha[c] * exp(psi[c]);
+  Real least = 0;
+  for (const Index c : cells) {
+    const Eigen e = eigen(psi[c]);
+    least = std::min(least, e.value[0]);
+    aB[c] = alpha[c] * exp(e);
+  }
+  return std::exp(least);
 }
 
 SymTensor LogConformation::B(Index c, Real /*alpha*/) const { return exp(psi[c]); }

@@ -34,14 +34,17 @@ class LogConformation {
   std::span<const Index> strained() const { return known_.cells(); }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
-  /// zero far from the solid. grad: scratch.
-  void transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+  /// zero far from the solid. grad: scratch, zero
+  /// before and after. Returns the
+  /// largest change of log B of the material over dt on this rank.
+  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                  CellField<SymGradient>& grad);
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
-  /// aB = alpha B on the listed cells.
-  void weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+  /// aB = alpha B on the listed cells. Returns the smallest eigenvalue of B among them;
+  /// 1 without any.
+  Real weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;
@@ -49,7 +52,8 @@ class LogConformation {
   CellField<SymTensor> psi;
 
  private:
-  void rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
+  /// Sets rate_ on the cells; returns the largest of log B following the solid.
+  Real rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
 

@@ -11,9 +11,11 @@ Real bernoulli(Real d) { return d == 0 ? 1 : d / std::expm1(d); }
 
 }  // namespace
 
-SymTensor exp(const SymTensor& psi) {
-  return apply_to_eigenvalues(eigen(psi), [](Real v) { return std::exp(v); });
+SymTensor exp(const Eigen& e) {
+  return apply_to_eigenvalues(e, [](Real v) { return std::exp(v); });
 }
+
+SymTensor exp(const SymTensor& psi) { return exp(eigen(psi)); }
 
 SymTensor log(const SymTensor& B) {
   return apply_to_eigenvalues(eigen(B), [](Real v) { return std::log(v); });

@@ -18,7 +18,8 @@ SymTensor apply_to_eigenvalues(const Eigen& e, Function&& f) {
   return sum;
 }
 
-/// B = exp(psi): symmetric and positive definite for any finite psi.
+/// B = exp(psi): symmetric and positive definite for any finite psi. e: of psi.
+SymTensor exp(const Eigen& e);
 SymTensor exp(const SymTensor& psi);
 /// psi = log(B), B positive definite.
 SymTensor log(const SymTensor& B);

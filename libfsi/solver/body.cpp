@@ -41,7 +41,7 @@ void Body::weigh() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
-        k.weigh(aB, alpha, band.core());
+        eigenvalue_min = k.weigh(aB, alpha, band.core());
       },
       kinematics);
   for (const Index c : band.last_core()) lambda[c] = 0;

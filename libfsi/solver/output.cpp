@@ -98,8 +98,20 @@ Real Output::next_event() const {
   return std::min({sample_.next(t), field_.next(t), checkpoint_.next(t)});
 }
 
-void Output::after_step(const Limit& limit, Real dt) {
+Limit Output::count(const Limit& limit, Real dt) {
+  Limit taken = limit;
+  if (solver_.report().held_back) {
+    taken.name = "retry";
+  } else if (dt < limit.dt * (1 - 1e-9)) {
+    taken.name = "event";
+  }
+  ++limits_[taken.name];
+  return taken;
+}
+
+void Output::after_step(const Limit& asked, Real dt) {
   if (!solver_.report().failure.empty()) return;
+  const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
   const bool every_step = case_.output.sample_interval <= 0;
@@ -174,6 +186,9 @@ std::string Output::summary(const std::string& status) const {
   s.divergence_max = divergence_;
   s.solid_volume_drift = record_.drift();
   s.phases = solver_.profile().seconds();
+  s.limits = limits_;
+  for (const auto& [reason, number] : solver_.report().rejections)
+    s.rejections[reason] = static_cast<Real>(number);
   return io::json(s);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a run leaves behind: tables, fields, checkpoints, summary, progress line.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ class Output {
   io::Snapshot snapshot();
   void open_tables();
   void write_row(const Limit& limit, Real dt);
+  Limit count(const Limit& limit, Real dt);
   void write_fields();
   void write_checkpoint();
   void write_progress(const Limit& limit, Real dt);
@@ -62,6 +64,7 @@ class Output {
   Stopwatch watch_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
+  std::map<std::string, Real> limits_;  // steps by what set their length
   bool interrupted_ = false, finished_ = false;
 };
 

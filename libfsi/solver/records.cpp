@@ -1,12 +1,15 @@
 #include "libfsi/solver/records.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <string_view>
 
 #include "libfsi/analysis/measures.hpp"
 #include "libfsi/analysis/orientation.hpp"
 #include "libfsi/analysis/ring.hpp"
 #include "libfsi/analysis/surface.hpp"
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi {
@@ -83,6 +86,15 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
   row.push_back({"bending_prime", ring.bending_prime});
 }
 
+/// Number of a limit in flow.csv.
+Real limit_code(const std::string& name) {
+  constexpr std::array<std::string_view, 8> names{"none",  "fixed",    "advective", "elastic",
+                                                  "start", "step_max", "event",     "retry"};
+  const auto at = std::ranges::find(names, name);
+  FSI_ASSERT(at != names.end());
+  return static_cast<Real>(at - names.begin());
+}
+
 }  // namespace
 
 std::vector<std::string> names(const std::vector<Entry>& row) {
@@ -112,6 +124,7 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
   return {{"t", solver.state().t},
           {"dt", dt},
           {"dt_limit", limit.dt},
+          {"limit", limit_code(limit.name)},
           {"courant", dt / solver.advective_dt(1)},
           {"pressure_gradient", solver.driving_gradient()},
           {"pressure_drop", pressure_drop(solver)},
@@ -121,6 +134,7 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
           {"divergence_max", flow::divergence_max(solver.state().phi, mesh)},
           {"kinetic_energy", kinetic_energy(solver)},
           {"elastic_energy", elastic},
+          {"rejected_steps", static_cast<Real>(solver.report().rejected)},
           {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations)},
           {"wall_per_step", wall_per_step}};
 }

@@ -132,7 +132,7 @@ void Solver::transport_elastic() {
       [&](auto& k) {
         k.mark(body_->alpha);
         gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
-        k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
   body_->weigh();

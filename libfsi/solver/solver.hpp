@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,8 +50,10 @@ struct State {
 struct StepReport {
   int velocity_iterations = 0, pressure_iterations = 0;
   Real pressure_residual = 0;
-  std::int64_t rejected = 0;  ///< steps taken back
-  std::string failure;        ///< why the run cannot go on; empty while it can
+  std::int64_t rejected = 0;                         ///< steps taken back
+  std::map<std::string, std::int64_t> rejections{};  ///< by reason, since the start or restart
+  bool held_back = false;  ///< the step is smaller than asked for, after a rejected one
+  std::string failure;     ///< why the run cannot go on; empty while it can
 };
 
 /// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates
@@ -72,7 +75,9 @@ class Solver {
   void step(Real dt);
 
   /// Collective. A step of dt or, where that fails, of a half, a quarter ... of it from the same
-  /// state, with at most eight halvings. Returns the length taken; 0 when all failed:
+  /// state, with at most eight halvings. A step fails when it throws or when what it leaves behind
+  /// is out of bounds (advance.cpp); the steps after it grow by a tenth each. Returns the length
+  /// taken; 0 when all failed:
   /// report().failure then says why and the state is that before the step.
   Real advance(Real dt);
 
@@ -124,6 +129,7 @@ class Solver {
   void project(Real dt);
   void hold_mean_velocity(Real dt);
   void check() const;
+  std::string objection(Real dt) const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   Real elastic_time() const;
 
@@ -144,9 +150,10 @@ class Solver {
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
   std::optional<Backup> backup_;
-  Real solid_dt_ = 0;    // length of the solid's step
-  bool stiff_ = false;   // whether kappa is not zero
-  Real cells_norm_ = 0;  // sqrt(sum V^2)
+  Real solid_dt_ = 0;                               // length of the solid's step
+  Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
+  bool stiff_ = false;                              // whether kappa is not zero
+  Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;
   int vof_phase_, solid_phase_, momentum_phase_, flux_phase_, pressure_phase_;

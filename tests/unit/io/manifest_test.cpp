@@ -19,11 +19,13 @@ TEST(Manifest, SummaryIsJson) {
   summary.cells = 100, summary.steps = 10, summary.wall_seconds = 2;
   summary.solid_volume_drift = std::numeric_limits<Real>::quiet_NaN();
   summary.phases = {{"pressure", 1.5}, {"vof", 0.25}};
+  summary.limits = {{"elastic", 7}};
   EXPECT_EQ(io::json(summary),
             "{\n  \"case\": \"a \\\"case\\\"  \\\\\",\n  \"status\": \"complete\",\n"
             "  \"message\": \"\",\n  \"cells\": 100,\n  \"ranks\": 1,\n  \"steps\": 10,\n"
             "  \"t\": 0,\n  \"rejected_steps\": 0,\n  \"wall_seconds\": 2,\n"
             "  \"us_per_cell_step\": 2000,\n  \"phases\": {\"pressure\": 1.5, \"vof\": 0.25},\n"
+            "  \"limits\": {\"elastic\": 7},\n  \"rejections\": {},\n"
             "  \"solid_volume_drift\": null,\n  \"divergence_max\": 0\n}\n");
 }
 

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+/// What a step must not leave behind; more than the limits that it was chosen by, since the state
+/// that it ends with is not known before.
+constexpr Real courant_max = 1.2;         // transport crosses one cell in a step
+constexpr Real elastic_max = 5;           // elastic waves: found stable up to here
+constexpr Real strain_max = 0.5;          // of the solid in one step
+constexpr Real eigenvalue_min = 1e-4;     // of B: its condition number reaches 1e8
+constexpr Real volume_change_max = 1e-4;  // of a cell, left over by the pressure solve
+
+}  // namespace
+
+std::string Solver::objection(Real dt) const {
+  if (dt > advective_dt(courant_max)) return "the flow became too fast for the step";
+  if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
+    return "the flow is not divergence-free";
+  if (!body_ || !body_->semi_implicit()) return "";
+  if (dt > elastic_max * elastic_time()) return "the solid became too stiff for the step";
+  if (global_max(body_->strain) > strain_max) return "the solid strains too much in the step";
+  if (global_min(body_->eigenvalue_min) < eigenvalue_min)
+    return "the smallest eigenvalue of B fell below 1e-4";
+  return "";
+}
+
+Real Solver::advance(Real dt) {
+  if (!backup_) {
+    io::Snapshot state;
+    list(state);
+    backup_.emplace(state, mesh_);
+  }
+  backup_->keep();
+  // After a rejected step the next ones grow by a tenth each.
+  constexpr Real growth = 1.1, none = std::numeric_limits<Real>::max();
+  dt_cap_ = std::min(growth * dt_cap_, none);
+  report_.held_back = dt > dt_cap_;
+  dt = std::min(dt, dt_cap_);
+  constexpr int halvings = 8;
+  std::string reason;
+  for (int i = 0; i <= halvings; ++i, dt /= 2) {
+    try {
+      step(dt);
+      reason = objection(dt);
+      if (reason.empty()) {
+        if (i > 0) dt_cap_ = dt, report_.held_back = true;
+        return dt;
+      }
+    } catch (const Error& error) {
+      if (error.kind() != Kind::numerics) throw;
+      reason = error.what();
+    }
+    backup_->restore();
+    resume();
+    ++report_.rejected;
+    ++report_.rejections[reason];
+  }
+  std::array<char, 96> where{};
+  std::snprintf(where.data(), where.size(), "step %lld from t = %.6g failed down to dt = %.2g: ",
+                static_cast<long long>(state_.step + 1), state_.t, 2 * dt);
+  report_.failure = where.data() + reason;
+  return 0;
+}
+
+}  // namespace fsi
