@@ -88,8 +88,8 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
 
 /// Number of a limit in flow.csv.
 Real limit_code(const std::string& name) {
-  constexpr std::array<std::string_view, 8> names{"none",  "fixed",    "advective", "elastic",
-                                                  "start", "step_max", "event",     "retry"};
+  constexpr std::array<std::string_view, 9> names{
+      "none", "fixed", "advective", "elastic", "start", "step_max", "event", "retry", "strain"};
   const auto at = std::ranges::find(names, name);
   FSI_ASSERT(at != names.end());
   return static_cast<Real>(at - names.begin());

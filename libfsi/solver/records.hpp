@@ -24,7 +24,8 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// pressure_drop between the patches inlet and outlet, S times the period in a periodic channel;
 /// pressure_span = max p - min p; flow_rate through the patch `outlet`, the section of a periodic
 /// channel; us and dt as they are; limit: what set dt, 0 nothing, 1 -time_step, 2 advective, 3
-/// elastic, 4 start, 5 -time_step_max, 6 an event to be hit, 7 growing again after a rejected step.
+/// elastic, 4 start, 5 -time_step_max, 6 an event to be hit, 7 growing again after a rejected step,
+/// 8 strain of the solid.
 std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
 /// Follows the solid from row to row. What it remembers is part of a checkpoint.

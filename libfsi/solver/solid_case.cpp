@@ -70,6 +70,9 @@ SolidSetup read_solid(Options& options, Physics& physics) {
   solid.kinematics = kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
                                                        : KinematicsKind::log_conformation;
   if (solid.name == "none" && !options.help()) return solid;
+  physics.solid_acceleration =
+      options.vec3("solid_acceleration", {},
+                   {.help = "body force on the solid alone, per mass", .unit = "length / time^2"});
 
   const shapes::Shape shape = undeformed(options, solid.name, solid.thickness);
   const Vec3 centre = options.vec3("solid_center", {0.5, 0.5, 0.5},

@@ -135,6 +135,7 @@ void Solver::transport_elastic() {
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
+  body_->strain_dt = solid_dt_;
   body_->weigh();
 }
 
@@ -157,6 +158,8 @@ void Solver::mix_viscosity() {
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
   body_->law.apply(force_, balance_, body_->aB, weights_, u_stencil_, body_->band, body_->grad);
+  solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
+                        body_->band.core());
 }
 
 void Solver::predict_momentum(Real dt) {
@@ -215,6 +218,15 @@ Real Solver::advective_dt(Real courant) const {
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 
+Real Solver::boundary_dt(Real courant) const {
+  Real rate = 0;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    rate = std::max(rate,
+                    norm(u_b_[f - mesh_.n_internal]) * norm(mesh_.Sf[f]) / mesh_.V[mesh_.owner[f]]);
+  rate = global_max(rate);
+  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
 Real Solver::elastic_time() const {
   return global_min(
       solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, body_->band.core()));
@@ -223,6 +235,12 @@ Real Solver::elastic_time() const {
 Real Solver::elastic_dt() const {
   if (!body_) return std::numeric_limits<Real>::max();
   return (body_->semi_implicit() ? 4 : 0.8) * elastic_time();
+}
+
+Real Solver::strain_dt(Real strain) const {
+  const Real rate = body_ && body_->strain_dt > 0 ? body_->strain / body_->strain_dt : 0;
+  const Real most = global_max(rate);
+  return most > 0 ? strain / most : std::numeric_limits<Real>::max();
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

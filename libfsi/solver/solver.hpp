@@ -22,10 +22,11 @@ namespace fsi {
 
 /// Material constants, in consistent units.
 struct Physics {
-  Real rho = 1;      ///< density of fluid and solid
-  Real mu_f = 0.01;  ///< dynamic viscosity of the fluid
-  Real mu_s = 0.01;  ///< of the solid
-  Real G = 0;        ///< shear modulus of the solid
+  Real rho = 1;               ///< density of fluid and solid
+  Real mu_f = 0.01;           ///< dynamic viscosity of the fluid
+  Real mu_s = 0.01;           ///< of the solid
+  Real G = 0;                 ///< shear modulus of the solid
+  Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
 };
 
 /// What drives and how the flow is solved.
@@ -92,9 +93,15 @@ class Solver {
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
+  /// Collective. Largest dt in which nothing that moves at a boundary passes more than `courant` of
+  /// the cell beside it: what is known of the flow before the first step.
+  Real boundary_dt(Real courant) const;
   /// Collective. The largest step that resolves the solid's elastic waves, or, where these are
   /// treated implicitly, that was found stable; the largest number without a solid.
   Real elastic_dt() const;
+  /// Collective. Step in which the solid strains by that much at its last rate, where the
+  /// kinematics watches it.
+  Real strain_dt(Real strain) const;
 
   const Mesh& mesh() const { return mesh_; }
   State& state() { return state_; }
