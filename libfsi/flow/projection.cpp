@@ -23,9 +23,15 @@ bool any(const std::vector<bool>& flags) {
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
-  const auto damped = [&](Index f) {
+  const auto damped = [&](Index f, Real dt) {
     const Real implicit = terms.theta * terms.mu[f] + terms.kappa[f];
-    return terms.dt / (terms.rho + 4 * terms.dt * implicit / norm2(mesh.d[f]));
+    return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
+  };
+  // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
+  constexpr Real courant = 0.1;
+  const auto time = [&](Index f, const Vec3& u_f) {
+    if (terms.balance[f] == 0) return terms.dt;
+    return std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));
   };
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
@@ -36,14 +42,14 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
              lambda * dot(terms.L[N], weights.skew[f]);
     const Vec3 grad_f = (1 - lambda) * terms.grad_p[P] + lambda * terms.grad_p[N];
     const Real brace = dot(grad_f, mesh.d[f]) - (terms.p[N] - terms.p[P]) + terms.balance[f];
-    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f) * weights.g[f] * brace;
+    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f, time(f, u_f)) * weights.g[f] * brace;
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index b = f - mesh.n_internal, P = mesh.owner[f];
     phi[f] = dot(u_b[b], mesh.Sf[f]);
     if (open_face[b] == 0) continue;
     const Real brace = dot(terms.grad_p[P], mesh.d[f]) - (terms.p_b[b] - terms.p[P]);
-    phi[f] += damped(f) * weights.g[f] * brace;
+    phi[f] += damped(f, terms.dt) * weights.g[f] * brace;
   }
 }
 

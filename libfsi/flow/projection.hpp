@@ -26,10 +26,12 @@ struct FluxTerms {
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
 ///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
-///   d_f = dt / (rho + 4 dt (theta mu_f + kappa_f) / |d|^2).
-/// The brace compares the compact with the averaged gradient of p and of the elastic normal stress;
-/// it vanishes for linear fields. Boundary: prescribed velocity, or the same with p_b at openings.
-/// On return every face of phi is set. u: owned and halo.
+///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f) / |d|^2),
+/// t_f = dt, but where elastic stress acts not more than 0.1 |d| / |u_f|: the jump at the surface
+/// of a solid would else leak through it with a flux in proportion to dt. The brace compares the
+/// compact with the averaged gradient of p and of the elastic normal stress; it vanishes for linear
+/// fields. Boundary: prescribed velocity, or the same with p_b at openings. On return every face of
+/// phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);

@@ -7,12 +7,6 @@
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi::solid {
-namespace {
-
-constexpr int inner_layer = 1, outer_layer = 2, last_layer_number = 5;
-
-}  // namespace
-
 Extension::Extension(const Mesh& mesh)
     : mesh_(mesh), item_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
   for (Index c = 0; c < mesh.n_owned; ++c) {
@@ -51,11 +45,11 @@ void Extension::mark_inner(const CellField<SymTensor>& T, const CellField<Real>&
     layer_.push_back(c);
     return true;
   });
-  for (const Index c : layer_) item_[c] = {T[c], inner_layer};
+  for (const Index c : layer_) item_[c] = {T[c], thin_layer};
   mesh_.halo.update(item_);
 }
 
-void Extension::list_ring(int layer, const Band& known) {
+void Extension::list_ring(Real layer, const Band& known) {
   ++calls_;
   layer_.clear();
   const auto list = [&](Index c) {
@@ -71,7 +65,7 @@ void Extension::list_ring(int layer, const Band& known) {
       for (const Index n : known.around_halo()[c - mesh_.n_owned]) list(n);
 }
 
-void Extension::fill(int layer) {
+void Extension::fill(Real layer) {
   values_.clear();
   for (const Index c : layer_) {
     SymTensor sum;
@@ -84,8 +78,7 @@ void Extension::fill(int layer) {
     }
     values_.push_back((1 / weights) * sum);
   }
-  for (std::size_t i = 0; i < layer_.size(); ++i)
-    item_[layer_[i]] = {values_[i], static_cast<Real>(layer)};
+  for (std::size_t i = 0; i < layer_.size(); ++i) item_[layer_[i]] = {values_[i], layer};
   mesh_.halo.update(item_);
 }
 
@@ -118,9 +111,10 @@ void Extension::apply(CellField<SymTensor>& T, const CellField<Real>& alpha, con
   mark_inner(T, alpha, known);
   layer_ = outer_;
   fill(outer_layer);
-  for (int layer = outer_layer + 1; layer <= last_layer_number; ++layer) {
-    list_ring(layer, known);
-    fill(layer);
+  constexpr int rings = 3;
+  for (int ring = 1; ring <= rings; ++ring) {
+    list_ring(outer_layer + ring, known);
+    fill(outer_layer + ring);
     inside_ = set_.size();
     set_.insert(set_.end(), layer_.begin(), layer_.end());
   }

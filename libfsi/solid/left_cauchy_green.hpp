@@ -32,8 +32,8 @@ class LeftCauchyGreen {
   std::span<const Index> strained() const { return band_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
-  /// zero where alpha < alpha_min. grad: scratch. Returns the
-  /// largest change of log B of the material over dt on this rank, which is not
+  /// zero where alpha < alpha_min. grad: scratch. Returns the largest rate of log B following the
+  /// solid on this rank, which is not
   /// watched: 0.
   Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                  CellField<SymGradient>& grad);

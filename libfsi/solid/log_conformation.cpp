@@ -76,7 +76,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
     const SymTensor strain = log_rate(carrier.L[c], psi[c]);
-    fastest = std::max(fastest, largest(strain));
+    if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
     rate_[c] = strain - (1 / mesh_.V[c]) * sum;
   }
   return fastest;
@@ -92,7 +92,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   for (const Index c : known_.core()) psi[c] = isochoric(0.5 * (old_[c] + psi[c] + dt * rate_[c]));
   for (const Index c : extension_.inside()) grad[c] = {};
   extension_.apply(psi, alpha, known_, carrier.u, dt);
-  return dt * fastest;
+  return fastest;
 }
 
 Real LogConformation::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,

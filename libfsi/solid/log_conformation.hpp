@@ -34,9 +34,9 @@ class LogConformation {
   std::span<const Index> strained() const { return known_.cells(); }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
-  /// zero far from the solid. grad: scratch, zero
-  /// before and after. Returns the
-  /// largest change of log B of the material over dt on this rank.
+  /// zero far from the solid. grad: scratch, zero before
+  /// and after. Returns the largest rate of log B following the
+  /// solid over this rank's inner cells: what is thinner than the mesh sets no step.
   Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                  CellField<SymGradient>& grad);
 

@@ -27,7 +27,7 @@ std::string Solver::objection(Real dt) const {
     return "the flow is not divergence-free";
   if (!body_ || !body_->semi_implicit()) return "";
   if (dt > elastic_max * elastic_time()) return "the solid became too stiff for the step";
-  if (global_max(body_->strain) > strain_max) return "the solid strains too much in the step";
+  if (dt > strain_dt(strain_max)) return "the solid strains too much in the step";
   if (global_min(body_->eigenvalue_min) < eigenvalue_min)
     return "the smallest eigenvalue of B fell below 1e-4";
   return "";

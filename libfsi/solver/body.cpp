@@ -52,8 +52,7 @@ void Body::weigh() {
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
   snapshot.add("solid_t", &t);
-  snapshot.add("solid_strain", &strain);
-  snapshot.add("solid_strain_dt", &strain_dt);
+  snapshot.add("solid_strain_rate", &strain_rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
 }

@@ -50,8 +50,7 @@ struct Body {
   CellField<SymTensor> aB;   ///< alpha B, on the band's core
   CellField<Real> lambda;    ///< largest eigenvalue of aB; owned and halo
   Real t = 0;                ///< time of alpha and B
-  Real strain = 0;           ///< largest change of log B following the solid, in its last step
-  Real strain_dt = 0;        ///< length of that step; 0: none yet
+  Real strain_rate = 0;      ///< largest rate of log B following the solid, in its last step
   Real eigenvalue_min = 1;   ///< of B on this rank
   vof::Interface interface;  ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;

@@ -132,10 +132,9 @@ void Solver::transport_elastic() {
       [&](auto& k) {
         k.mark(body_->alpha);
         gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
-        body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        body_->strain_rate = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
-  body_->strain_dt = solid_dt_;
   body_->weigh();
 }
 
@@ -238,9 +237,8 @@ Real Solver::elastic_dt() const {
 }
 
 Real Solver::strain_dt(Real strain) const {
-  const Real rate = body_ && body_->strain_dt > 0 ? body_->strain / body_->strain_dt : 0;
-  const Real most = global_max(rate);
-  return most > 0 ? strain / most : std::numeric_limits<Real>::max();
+  const Real rate = global_max(body_ ? body_->strain_rate : 0);
+  return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {
