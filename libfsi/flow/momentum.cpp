@@ -147,9 +147,8 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       bool stiff, const Sources& sources, Real dt) {
   constexpr int damped_steps = 2;
   const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
-  if (mu_varies || stiff || stiff_ || assembled_ != std::array{theta_now, dt})
+  if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
     assemble(mu, kappa, theta_now, dt);
-  stiff_ = stiff;
 
   convection(now_, phi, u, u_b, L, weights_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) now_[c] *= -rho_;

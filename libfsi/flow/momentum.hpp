@@ -54,7 +54,7 @@ class Momentum {
            Real rho, Real mu_0);
 
   /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
-  /// mu_varies: in time and space; stiff: kappa is not zero, else it is not read.
+  /// mu_varies: in time and space; stiff: kappa does; without, it is zero for good.
   /// Returns iterations of all components. Errors: Error{numerics}.
   int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
               const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
@@ -88,8 +88,7 @@ class Momentum {
   FaceMatrix matrix_;
   std::vector<std::vector<Real>> diagonal_;  // one a system
   std::vector<LinearSystem>
-      systems_;         // one, or one a component where a slip plane tells them apart
-  bool stiff_ = false;  // in the matrix in place
+      systems_;  // one, or one a component where a slip plane tells them apart
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

@@ -28,7 +28,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
-  constexpr Real courant = 0.1;
+  constexpr Real courant = 0.02;
   const auto time = [&](Index f, const Vec3& u_f) {
     if (terms.balance[f] == 0) return terms.dt;
     return std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));

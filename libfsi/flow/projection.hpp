@@ -27,7 +27,7 @@ struct FluxTerms {
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
 ///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
 ///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f) / |d|^2),
-/// t_f = dt, but where elastic stress acts not more than 0.1 |d| / |u_f|: the jump at the surface
+/// t_f = dt, but where elastic stress acts not more than 0.02 |d| / |u_f|: the jump at the surface
 /// of a solid would else leak through it with a flux in proportion to dt. The brace compares the
 /// compact with the averaged gradient of p and of the elastic normal stress; it vanishes for linear
 /// fields. Boundary: prescribed velocity, or the same with p_b at openings. On return every face of

@@ -13,11 +13,6 @@ Extension::Extension(const Mesh& mesh)
     Real area = 0;
     for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm(mesh.Sf[f]));
     h_.push_back(mesh.V[c] / area);
-    for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
-      const Vec3 x =
-          mesh.C[mesh.cell_neighbours.index[i]] + mesh.translation[mesh.cell_neighbour_shift[i]];
-      weight_.push_back(1 / norm2(x - mesh.C[c]));
-    }
   }
 }
 
@@ -73,8 +68,11 @@ void Extension::fill(Real layer) {
     for (Index i = mesh_.cell_neighbours.offset[c]; i < mesh_.cell_neighbours.offset[c + 1]; ++i) {
       const Item& item = item_[mesh_.cell_neighbours.index[i]];
       if (item.layer == 0) continue;
-      sum += weight_[i] * item.T;
-      weights += weight_[i];
+      const Vec3 x = mesh_.C[mesh_.cell_neighbours.index[i]] +
+                     mesh_.translation[mesh_.cell_neighbour_shift[i]];
+      const Real w = 1 / norm2(x - mesh_.C[c]);
+      sum += w * item.T;
+      weights += w;
     }
     values_.push_back((1 / weights) * sum);
   }

@@ -60,8 +60,7 @@ class Extension {
   Vec3 mean(const CellField<Vec3>& u, const CellField<Real>& alpha, const Band& known) const;
 
   const Mesh& mesh_;
-  std::vector<Real> h_;       // [n_owned] V / max |Sf|
-  std::vector<Real> weight_;  // beside mesh.cell_neighbours.index: 1 / |d|^2
+  std::vector<Real> h_;  // [n_owned] V / max |Sf|
   CellField<Item> item_;
   std::vector<Index> set_, last_set_, outer_, layer_;
   std::vector<SymTensor> values_;

@@ -26,23 +26,30 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
   return time;
 }
 
-void Stiffness::clear(FaceField<Real>& kappa) {
-  for (const Index f : last_faces_) kappa[f] = 0;
-  last_faces_.clear();
-}
-
-void Stiffness::apply(FaceField<Real>& kappa, const CellField<Real>& lambda, Real G, Real dt,
+void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
   constexpr Real share = 0.3, lambda_max = 20;
-  clear(kappa);
+  const Real b = weights.non_orthogonal ? 2 : 1;
+  const CellField<Real>& lambda = solid.lambda;
+  for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     Real l = std::min(lambda[P], lambda_max);
     if (f < mesh_.n_internal)
       l += weights.lambda[f] * (std::min(lambda[mesh_.neighbour[f]], lambda_max) - l);
-    kappa[f] = share * dt * G * l;
+    kappa[f] = share * solid.dt * solid.G * l;
+    if (f >= mesh_.n_internal || l <= 0) continue;
+    const Index N = mesh_.neighbour[f];
+    const Real e = b * norm(mesh_.d[f]) * std::sqrt(solid.rho * solid.G * l);
+    kappa[f] += e;
+    // e g ((u_N - u_P) - (L_f . d))
+    const Tensor L_f = (1 - weights.lambda[f]) * solid.L[P] + weights.lambda[f] * solid.L[N];
+    const Vec3 flux = e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(L_f, mesh_.d[f]));
+    force[P] += (1 / mesh_.V[P]) * flux;
+    force[N] -= (1 / mesh_.V[N]) * flux;
   }
+  mesh_.halo.update(force);
 }
 
 }  // namespace fsi::solid

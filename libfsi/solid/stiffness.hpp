@@ -18,20 +18,37 @@ void largest_stretch(CellField<Real>& lambda, const CellField<SymTensor>& aB,
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
                   std::span<const Index> cells);
 
-/// kappa_f = 0.3 dt G min(lambda, 20), lambda linear between the cells: the scalar operator
-/// div(kappa grad (u* - u^n)) stands in for the change of the elastic stress over a step. With
-/// leapfrog that is div(dt G B . grad u) by div u = 0, and a share of 1/4 of it or more makes the
-/// pair stable for any dt: w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over
-/// a step, and so does not touch second order. lambda: owned and halo. kappa: zero on all faces
-/// outside the band of this and the last call.
+/// What a face operator on the solid reads.
+struct Stiffening {
+  const CellField<Real>& lambda;  ///< owned and halo
+  const CellField<Vec3>& u;       ///< owned and halo
+  const CellField<Tensor>& L;     ///< velocity gradient, on the band and halo
+  Real G, rho, dt;
+};
+
+/// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
+///
+///   div(k grad (u* - u^n)),   k = 0.3 dt G min(lambda, 20)
+///
+/// stands in for the change of the elastic stress over the step, which with leapfrog is
+/// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
+/// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over a step.
+///
+///   div(e (grad u* - avg L^n)),   e = b |d| (rho G lambda)^(1/2)
+///
+/// compares the compact gradient with the averaged one. The averaged stress does not see what
+/// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, and
+/// is of third order elsewhere. b = 1, and 2 on a mesh of non-orthogonal faces, whose gradient has
+/// more such modes.
 class Stiffness {
  public:
   explicit Stiffness(const Mesh& mesh) : mesh_(mesh) {}
 
-  void apply(FaceField<Real>& kappa, const CellField<Real>& lambda, Real G, Real dt,
+  /// Collective. kappa_f = k + e, the implicit coefficient of both, lambda linear between the
+  /// cells; zero outside the band of this and the last call. force += the explicit rest of the
+  /// second.
+  void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
              const FaceWeights& weights, const Band& band);
-  /// kappa = 0.
-  void clear(FaceField<Real>& kappa);
 
  private:
   const Mesh& mesh_;

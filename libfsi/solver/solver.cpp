@@ -84,12 +84,13 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
 void Solver::step(Real dt) {
   update_gradients();  // grad p^n, L^n
   if (body_) {
-    advance_interface(state_.t +
-                      body_->ahead() * dt);  // d alpha/dt + div(alpha u) = 0 [Matsumiya25] (5)
-    transport_elastic();  // dBt/dt + div(u Bt) = L.Bt + Bt.L^T      [Matsumiya25] (10)
-    weigh_stiffness(dt);  // kappa = 0.3 dt G alpha lambda            [Here] (3)
-    mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f      [Matsumiya25] (3)
-    set_elastic_force();  // f = div(alpha^(1/2) G dev Bt)           [Matsumiya25] (11)
+    advance_interface(state_.t + body_->ahead() * dt);  // d alpha/dt + div(alpha u) = 0
+                                                        //            [Matsumiya25] (5)
+    transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
+                          // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
+    mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
+    set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
+    stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
   }
   predict_momentum(dt);    // du/dt + div(u u) = ...                  [Matsumiya25] (12)
   predict_flux(dt);        // phi* from u*                            [Rhie83]
@@ -138,20 +139,19 @@ void Solver::transport_elastic() {
   body_->weigh();
 }
 
-void Solver::weigh_stiffness(Real dt) {
-  const Profile::Phase phase(profile_, solid_phase_);
-  // Below half of the explicit limit there is nothing to make stable.
-  stiff_ = body_->semi_implicit() && dt > elastic_time() / 2;
-  if (stiff_) {
-    body_->stiffness.apply(kappa_, body_->lambda, physics_.G, dt, weights_, body_->band);
-  } else {
-    body_->stiffness.clear(kappa_);
-  }
-}
-
 void Solver::mix_viscosity() {
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
+}
+
+void Solver::stiffen(Real dt) {
+  const Profile::Phase phase(profile_, solid_phase_);
+  if (!body_->semi_implicit()) return;
+  gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
+  mesh_.halo.update(L_);
+  body_->stiffness.apply(kappa_, force_,
+                         {body_->lambda, state_.u, L_, physics_.G, physics_.rho, dt}, weights_,
+                         body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -167,7 +167,7 @@ void Solver::predict_momentum(Real dt) {
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
       momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, kappa_, mu_varies(),
-                        stiff_, {force_, body}, dt);
+                        stiff(), {force_, body}, dt);
 }
 
 void Solver::predict_flux(Real dt) {

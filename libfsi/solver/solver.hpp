@@ -128,9 +128,9 @@ class Solver {
   void update_gradients();
   void advance_interface(Real t);
   void transport_elastic();
-  void weigh_stiffness(Real dt);
   void mix_viscosity();
   void set_elastic_force();
+  void stiffen(Real dt);
   void predict_momentum(Real dt);
   void predict_flux(Real dt);
   void project(Real dt);
@@ -138,6 +138,7 @@ class Solver {
   void check() const;
   std::string objection(Real dt) const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
+  bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
 
   const Mesh& mesh_;
@@ -159,7 +160,6 @@ class Solver {
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
-  bool stiff_ = false;                              // whether kappa is not zero
   Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;

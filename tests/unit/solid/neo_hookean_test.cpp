@@ -193,26 +193,72 @@ TEST(Stiffness, TimeOfTheElasticWave) {
             std::numeric_limits<Real>::max());
 }
 
-// kappa = 0.3 dt G lambda on the faces of the solid, halved at its surface, nothing elsewhere and
-// nothing once it has left.
-TEST(Stiffness, LivesInTheSolidOnly) {
-  Solid s({.n = {8, 8, 0}});
-  const auto inside = [&](Index c) { return s.mesh.C[c].x < 0.5; };
-  CellField<Real> lambda(s.mesh);
-  for (Index c = 0; c < s.mesh.n_cells; ++c)
-    s.alpha[c] = inside(c) ? 1 : 0, lambda[c] = inside(c) ? 2 : 0;
-  s.band.rebuild(s.alpha, 0.5);
-  FaceField<Real> kappa(s.mesh);
-  solid::Stiffness stiffness(s.mesh);
-  const Real dt = 0.1, full = 0.3 * dt * G * 2;
-  stiffness.apply(kappa, lambda, G, dt, s.weights, s.band);
-  for (Index f = 0; f < s.mesh.n_faces; ++f) {
-    const bool P = inside(s.mesh.owner[f]);
-    const bool N = f < s.mesh.n_internal ? inside(s.mesh.neighbour[f]) : P;
-    EXPECT_NEAR(kappa[f], P && N ? full : P || N ? full / 2 : 0, 1e-15);
+/// Stiffening of a disc of lambda = 2 in a velocity field.
+struct Stiff {
+  explicit Stiff(const std::function<Vec3(const Vec3&)>& velocity)
+      : s({.n = {8, 8, 0}, .periodic = {"left", "right", "bottom", "top"}}),
+        lambda(s.mesh),
+        u(s.mesh),
+        L(s.mesh),
+        kappa(s.mesh) {
+    for (Index c = 0; c < s.mesh.n_cells; ++c) {
+      s.alpha[c] = inside(c) ? 1 : 0, lambda[c] = inside(c) ? 2 : 0;
+      u[c] = velocity(s.mesh.C[c]);
+    }
   }
-  stiffness.clear(kappa);
-  for (Index f = 0; f < s.mesh.n_faces; ++f) EXPECT_EQ(kappa[f], 0);
+  bool inside(Index c) const { return norm(s.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
+  void apply() {
+    s.band.rebuild(s.alpha, 0.5);
+    stiffness.apply(kappa, s.force, {lambda, u, L, G, rho, dt}, s.weights, s.band);
+  }
+  static constexpr Real rho = 2, dt = 0.1, h = 0.125;
+  Solid s;
+  CellField<Real> lambda;
+  CellField<Vec3> u;
+  CellField<Tensor> L;
+  FaceField<Real> kappa;
+  solid::Stiffness stiffness{s.mesh};
+};
+
+// kappa = 0.3 dt G lambda + |d| (rho G lambda)^(1/2) on the faces of the solid, of half lambda at
+// its surface, nothing elsewhere and nothing once it has left.
+TEST(Stiffness, LivesInTheSolidOnly) {
+  Stiff stiff([](const Vec3&) { return Vec3{}; });
+  stiff.apply();
+  const Mesh& mesh = stiff.s.mesh;
+  const auto expected = [](Real l) {
+    return 0.3 * Stiff::dt * G * l + Stiff::h * std::sqrt(Stiff::rho * G * l);
+  };
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const bool P = stiff.inside(mesh.owner[f]), N = stiff.inside(mesh.neighbour[f]);
+    EXPECT_NEAR(stiff.kappa[f], P && N ? expected(2) : P || N ? expected(1) : 0, 1e-14);
+  }
+  stiff.s.alpha.fill(0);
+  stiff.apply();
+  for (Index f = 0; f < mesh.n_faces; ++f) EXPECT_EQ(stiff.kappa[f], 0);
+}
+
+// Nothing acts on a linear velocity; what alternates from cell to cell, which the averaged gradient
+// does not see, is pushed back by e g 2 u a face.
+TEST(Stiffness, PushesBackOnlyWhatAlternates) {
+  Stiff linear([](const Vec3& x) { return Vec3{x.y, 2 * x.x, 0}; });
+  Tensor L;
+  L.xy = 1, L.yx = 2;
+  linear.L.fill(L);
+  linear.apply();
+  const Mesh& mesh = linear.s.mesh;
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    if (linear.inside(c)) EXPECT_LE(norm(linear.s.force[c]), 1e-13);
+  }
+  const auto sign = [](const Vec3& x) { return std::lround(8 * x.x - 0.5) % 2 == 0 ? 1.0 : -1.0; };
+  Stiff alternating([&](const Vec3& x) { return Vec3{0, sign(x), 0}; });
+  alternating.apply();
+  const Real e = Stiff::h * std::sqrt(Stiff::rho * G * 2);
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    if (norm(mesh.C[c] - Vec3{0.5, 0.5, 0}) > 0.1) continue;
+    const Vec3 pushed = alternating.s.force[c];
+    EXPECT_NEAR(pushed.y, -4 * e / (Stiff::h * Stiff::h) * sign(mesh.C[c]), 1e-10);
+  }
 }
 
 }  // namespace
