@@ -114,7 +114,8 @@ def main():
             if kinematics == "log_conformation" and n >= 128 and any(map(np.greater, far, limits)):
                 failures.append(f"N = {n}: a shape is too far from the reference")
         if kinematics == "log_conformation":
-            if not max(run["det_B_max"].max() - 1, 1 - run["det_B_min"].min()) <= 1e-10:
+            # round-off of the product of eigenvalues of up to some hundred and their inverses
+            if not max(run["det_B_max"].max() - 1, 1 - run["det_B_min"].min()) <= 1e-8:
                 failures.append(f"N = {n}: det B is not 1")
         if not error <= limit:
             failures.append(f"N = {n}: the error {error:.3e} exceeds {limit}")
