@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "libfsi/core/eigen.hpp"
+#include "libfsi/core/parallel.hpp"
 
 namespace fsi::solid {
 
@@ -26,10 +27,16 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
   return time;
 }
 
+Stiffness::Stiffness(const Mesh& mesh) : mesh_(mesh) {
+  bool none = true;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    none = none && static_cast<int>(mesh.cell_faces[c].size()) > mesh.dim + 1;
+  simplex_ = !all_of_ranks(none);
+}
+
 void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
   constexpr Real share = 0.3, lambda_max = 20;
-  const Real b = weights.non_orthogonal ? 2 : 1;
   const CellField<Real>& lambda = solid.lambda;
   for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();
@@ -41,8 +48,15 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     kappa[f] = share * solid.dt * solid.G * l;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];
-    const Real e = b * norm(mesh_.d[f]) * std::sqrt(solid.rho * solid.G * l);
-    kappa[f] += e;
+    const Real d = norm(mesh_.d[f]);
+    Real e = d * std::sqrt(solid.rho * solid.G * l);
+    if (simplex_) {
+      e *= 2;
+      kappa[f] += e;
+    } else {
+      // as much as stays stable beside k without an implicit part of its own
+      e = std::min(e, 1.5 * (kappa[f] + solid.rho * d * d / (8 * solid.dt)));
+    }
     // e g ((u_N - u_P) - (L_f . d))
     const Tensor L_f = (1 - weights.lambda[f]) * solid.L[P] + weights.lambda[f] * solid.L[N];
     const Vec3 flux = e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(L_f, mesh_.d[f]));

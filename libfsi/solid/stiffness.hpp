@@ -34,24 +34,27 @@ struct Stiffening {
 /// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
 /// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u* - avg L^n)),   e = b |d| (rho G lambda)^(1/2)
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G lambda)^(1/2)
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, and
-/// is of third order elsewhere. b = 1, and 2 on a mesh of non-orthogonal faces, whose gradient has
-/// more such modes.
+/// is of third order elsewhere. Explicit, and so at most 1.5 (k + rho |d|^2 / (8 dt)). Triangles
+/// and tetrahedra, whose gradient has more such modes, need twice e and all of it: there u* stands
+/// in place of the first u^n, which costs an error of first order in dt.
 class Stiffness {
  public:
-  explicit Stiffness(const Mesh& mesh) : mesh_(mesh) {}
+  /// Collective.
+  explicit Stiffness(const Mesh& mesh);
 
-  /// Collective. kappa_f = k + e, the implicit coefficient of both, lambda linear between the
-  /// cells; zero outside the band of this and the last call. force += the explicit rest of the
-  /// second.
+  /// Collective. kappa_f: the implicit coefficient, k, on triangles and tetrahedra k + e; lambda
+  /// linear between the cells; zero outside the band of this and the last call. force += the
+  /// explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
              const FaceWeights& weights, const Band& band);
 
  private:
   const Mesh& mesh_;
+  bool simplex_ = false;  // whether the mesh has triangles or tetrahedra
   std::vector<Index> last_faces_;
 };
 
