@@ -33,7 +33,7 @@ Real largest(const SymTensor& t) {
 }  // namespace
 
 LogConformation::LogConformation(const Mesh& mesh)
-    : psi(mesh), mesh_(mesh), known_(mesh), extension_(mesh), old_(mesh), rate_(mesh) {}
+    : psi(mesh), mesh_(mesh), known_(mesh), extension_(mesh) {}
 
 void LogConformation::set_undeformed(const CellField<Real>& alpha) {
   psi.fill({});
@@ -60,6 +60,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
   for (const Index c : extension_.last_layer()) grad[c] = {};
   mesh_.halo.update(grad);
   Real fastest = 0;
+  rate_.clear();
   for (const Index c : cells) {
     // -(1/V) sum_f phi_f (psi_f - psi_c),
     // psi_f = psi_up + 2 w limited(psi_down - psi_up) + grad psi_up . skew, w the share of |d|
@@ -77,19 +78,22 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
     }
     const SymTensor strain = log_rate(carrier.L[c], psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
-    rate_[c] = strain - (1 / mesh_.V[c]) * sum;
+    rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
   return fastest;
 }
 
 Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                 CellField<SymGradient>& grad) {
-  for (const Index c : known_.cells()) old_[c] = psi[c];
-  rate(known_.cells(), carrier, grad);
-  for (const Index c : known_.cells()) psi[c] += dt * rate_[c];
+  const std::vector<Index>&cells = known_.cells(), &core = known_.core();
+  old_.clear();
+  for (const Index c : core) old_.push_back(psi[c]);
+  rate(cells, carrier, grad);
+  for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
   mesh_.halo.update(psi);
-  const Real fastest = rate(known_.core(), carrier, grad);
-  for (const Index c : known_.core()) psi[c] = isochoric(0.5 * (old_[c] + psi[c] + dt * rate_[c]));
+  const Real fastest = rate(core, carrier, grad);
+  for (std::size_t i = 0; i < core.size(); ++i)
+    psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
   for (const Index c : extension_.inside()) grad[c] = {};
   extension_.apply(psi, alpha, known_, carrier.u, dt);
   return fastest;

@@ -2,6 +2,7 @@
 // Kinematics of the solid: transport of psi = log B, B the left Cauchy-Green tensor.
 
 #include <span>
+#include <vector>
 
 #include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
@@ -60,7 +61,7 @@ class LogConformation {
   const Mesh& mesh_;
   Band known_;
   Extension extension_;
-  CellField<SymTensor> old_, rate_;
+  std::vector<SymTensor> old_, rate_;  // beside the list of cells worked on
 };
 
 }  // namespace fsi::solid
