@@ -7,6 +7,7 @@
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi::solid {
+
 Extension::Extension(const Mesh& mesh)
     : mesh_(mesh), item_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
   for (Index c = 0; c < mesh.n_owned; ++c) {

@@ -20,17 +20,15 @@ inline constexpr Real alpha_known = 0.5;
 ///   known    alpha >= 1/2
 ///   inner    known, as are all face neighbours; known cells of thin parts, which have no inner
 ///            cell around them, count as inner
-///   T_ext    = sum w T_k / sum w, w = 1 / |d|^2, over those vertex neighbours that are set
-///   already:
-///            the inner cells first, then layer by layer to three layers beyond the known cells
-///   known but not inner    T <- T_ext + exp(-2 Co) (T - T_ext), Co = |u - u_s| dt / h, u_s the
-///   mean
-///                          velocity of the solid
+///   T_ext    = sum w T_k / sum w, w = 1 / |d|^2, over vertex neighbours that are set already: the
+///            inner cells first, then layer by layer to three layers beyond the known cells
+///   known but not inner    T <- T_ext + exp(-2 Co) (T - T_ext), Co = |u - u_s| dt / h,
+///            u_s the mean velocity of the solid
 ///   not known              T <- T_ext; zero beyond the last layer
 ///
 /// An interface cell forgets its own value while the solid beside it moves by half a cell relative
-/// to the whole, and keeps it in a solid that rests or moves as one. Any factor between 1/2 and 2
-/// gives nearly the same (doc/verification/disc.md).
+/// to the whole, and keeps it in a solid that rests or moves as one. How little the factor matters:
+/// doc/verification/disc.md.
 class Extension {
  public:
   explicit Extension(const Mesh& mesh);

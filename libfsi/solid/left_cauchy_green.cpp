@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/core/eigen.hpp"
+
 namespace fsi::solid {
 namespace {
 
@@ -61,9 +63,12 @@ Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& car
   return 0;
 }
 
-Real LeftCauchyGreen::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
-                            std::span<const Index> cells) const {
-  for (const Index c : cells) aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
+Real LeftCauchyGreen::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+                            const CellField<Real>& alpha, std::span<const Index> cells) const {
+  for (const Index c : cells) {
+    aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
+    lambda[c] = eigen(aB[c]).value[2];
+  }
   return 1;
 }
 

@@ -42,9 +42,9 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// aB = alpha B on the listed cells. Returns the smallest eigenvalue of B among them, which
-  /// this kinematics does not watch: 1.
-  Real weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// eigenvalue of B, which this kinematics does not watch: 1.
+  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;

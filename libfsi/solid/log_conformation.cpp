@@ -99,13 +99,14 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   return fastest;
 }
 
-Real LogConformation::weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
-                            std::span<const Index> cells) const {
+Real LogConformation::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+                            const CellField<Real>& alpha, std::span<const Index> cells) const {
   Real least = 0;
   for (const Index c : cells) {
     const Eigen e = eigen(psi[c]);
     least = std::min(least, e.value[0]);
     aB[c] = alpha[c] * exp(e);
+    lambda[c] = alpha[c] * std::exp(e.value[2]);
   }
   return std::exp(least);
 }

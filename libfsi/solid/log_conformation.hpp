@@ -35,17 +35,16 @@ class LogConformation {
   std::span<const Index> strained() const { return known_.cells(); }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
-  /// zero far from the solid. grad: scratch, zero before
-  /// and after. Returns the largest rate of log B following the
-  /// solid over this rank's inner cells: what is thinner than the mesh sets no step.
+  /// zero far from the solid. grad: scratch. Returns the largest rate of log B following the solid
+  /// over this rank's inner cells: what is thinner than the mesh sets no step.
   Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                  CellField<SymGradient>& grad);
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
-  /// aB = alpha B on the listed cells. Returns the smallest eigenvalue of B among them;
-  /// 1 without any.
-  Real weigh(CellField<SymTensor>& aB, const CellField<Real>& alpha,
+  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// eigenvalue of B among them, at most 1.
+  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;

@@ -4,15 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi::solid {
-
-void largest_stretch(CellField<Real>& lambda, const CellField<SymTensor>& aB,
-                     std::span<const Index> cells) {
-  for (const Index c : cells) lambda[c] = eigen(aB[c]).value[2];
-}
 
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
                   std::span<const Index> cells) {

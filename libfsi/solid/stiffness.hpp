@@ -9,10 +9,6 @@
 
 namespace fsi::solid {
 
-/// lambda_c = alpha times the largest eigenvalue of B: largest of aB, on the listed cells.
-void largest_stretch(CellField<Real>& lambda, const CellField<SymTensor>& aB,
-                     std::span<const Index> cells);
-
 /// Time in which the elastic shear wave passes a cell: the least h (rho / (G lambda))^(1/2) over
 /// the cells, h = V / max |Sf|, lambda at least 1. [Matsumiya25] (15) This rank's cells only.
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,

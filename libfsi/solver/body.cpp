@@ -41,11 +41,10 @@ void Body::weigh() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
-        eigenvalue_min = k.weigh(aB, alpha, band.core());
+        for (const Index c : band.last_core()) lambda[c] = 0;
+        eigenvalue_min = k.weigh(aB, lambda, alpha, band.core());
       },
       kinematics);
-  for (const Index c : band.last_core()) lambda[c] = 0;
-  solid::largest_stretch(lambda, aB, band.core());
   mesh.halo.update(lambda);
 }
 

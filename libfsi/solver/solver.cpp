@@ -105,14 +105,12 @@ void Solver::update_gradients() {
   const Profile::Phase phase(profile_, momentum_phase_);
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  if (weights_.skewed || weights_.non_orthogonal || mu_varies()) {
-    gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
-  }
+  if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
 }
 
 void Solver::synchronise() {
   if (!body_ || body_->t == state_.t) return;
-  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  update_gradients();
   advance_interface(state_.t);
   transport_elastic();
 }
@@ -132,7 +130,7 @@ void Solver::transport_elastic() {
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
-        gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
+        if (!needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
         body_->strain_rate = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
@@ -147,8 +145,10 @@ void Solver::mix_viscosity() {
 void Solver::stiffen(Real dt) {
   const Profile::Phase phase(profile_, solid_phase_);
   if (!body_->semi_implicit()) return;
-  gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
-  mesh_.halo.update(L_);
+  if (!needs_L()) {
+    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
+    mesh_.halo.update(L_);
+  }
   body_->stiffness.apply(kappa_, force_,
                          {body_->lambda, state_.u, L_, physics_.G, physics_.rho, dt}, weights_,
                          body_->band);

@@ -5,62 +5,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/left_cauchy_green.hpp"
-#include "tests/unit/support/box_file.hpp"
+#include "tests/unit/solid/full.hpp"
 
 namespace fsi {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
 
-Real largest(const SymTensor& t) {
-  Real m = 0;
-  for (const Real v : {t.xx, t.xy, t.xz, t.yy, t.yz, t.zz}) m = std::max(m, std::abs(v));
-  return m;
-}
+using test::largest;
 
-/// A mesh full of solid, with all that transport needs.
-struct Full {
-  explicit Full(const test::BoxFile& box)
-      : mesh(test::read_box(box)),
-        weights(mesh),
-        stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
-        alpha(mesh, 1),
-        phi(mesh),
-        u(mesh),
-        L(mesh),
-        kinematics(mesh),
-        Bt(kinematics.Bt),
-        grad(mesh) {
-    kinematics.set_undeformed(alpha);
-  }
-
-  void set_phi(const std::function<Vec3(const Vec3&)>& stream) {
-    for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(stream(mesh.Cf[f]), mesh.Sf[f]);
-  }
-  void step(Real dt) {
-    kinematics.mark(alpha);
-    kinematics.transport(alpha, {phi, u, L, stencil, weights}, dt, grad);
-  }
-  /// Largest component of Bt - B over all cells.
-  Real error(const std::function<SymTensor(const Vec3&)>& B) const {
-    Real worst = 0;
-    for (Index c = 0; c < mesh.n_cells; ++c) worst = std::max(worst, largest(Bt[c] - B(mesh.C[c])));
-    return global_max(worst);
-  }
-
-  Mesh mesh;
-  FaceWeights weights;
-  GradientStencil stencil;
-  CellField<Real> alpha;
-  FaceField<Real> phi;
-  CellField<Vec3> u;
-  CellField<Tensor> L;
-  solid::LeftCauchyGreen kinematics;
-  CellField<SymTensor>& Bt;
-  CellField<solid::SymGradient> grad;
-};
+using Full = test::Full<solid::LeftCauchyGreen>;
 
 test::BoxFile plane(Index n, bool simplex, bool periodic) {
   test::BoxFile box{.n = {n, n, 0}, .simplex = simplex};
@@ -73,7 +30,7 @@ Real homogeneous(const test::BoxFile& box, const Tensor& L, const SymTensor& B0,
                  const SymTensor& B1, int steps) {
   Full run(box);
   run.L.fill(L);
-  run.Bt.fill(B0);
+  run.kinematics.Bt.fill(B0);
   run.set_phi([](const Vec3&) { return Vec3{0.3, 0.2, 0.1}; });
   for (int i = 0; i < steps; ++i) run.step(1.0 / steps);
   return run.error([&](const Vec3&) { return B1; });
@@ -163,13 +120,13 @@ Real carried(const test::BoxFile& box, Real courant) {
     const Real a = std::sin(2 * pi * x.x), b = std::cos(2 * pi * (x.x + x.y));
     return SymTensor{2 + a, 0.5 * b, 0, 2 - a * b, 0, 1 + 0.3 * a};
   };
-  for (Index c = 0; c < run.mesh.n_cells; ++c) run.Bt[c] = profile(run.mesh.C[c]);
+  for (Index c = 0; c < run.mesh.n_cells; ++c) run.kinematics.Bt[c] = profile(run.mesh.C[c]);
   run.set_phi([](const Vec3&) { return Vec3{1, 1, 0}; });
   const int steps = static_cast<int>(std::lround(2 * box.n[0] / courant));
   for (int i = 0; i < steps; ++i) run.step(1.0 / steps);
   Sum squares;
   for (Index c = 0; c < run.mesh.n_owned; ++c) {
-    const SymTensor e = run.Bt[c] - profile(run.mesh.C[c]);
+    const SymTensor e = run.kinematics.Bt[c] - profile(run.mesh.C[c]);
     squares.add(run.mesh.V[c] * (e.xx * e.xx + e.xy * e.xy + e.yy * e.yy + e.zz * e.zz));
   }
   return std::sqrt(squares.total());
@@ -210,7 +167,7 @@ Real sheared(const test::BoxFile& box, Real courant) {
   for (Index c = 0; c < run.mesh.n_owned; ++c) {
     const Real y = run.mesh.C[c].y;
     const Real g = (std::sin(2 * pi * y) - std::sin(2 * pi * (y - V * t))) / V;
-    const SymTensor e = run.Bt[c] - SymTensor{1 + g * g, g, 0, 1, 0, 1};
+    const SymTensor e = run.kinematics.Bt[c] - SymTensor{1 + g * g, g, 0, 1, 0, 1};
     squares.add(run.mesh.V[c] * (e.xx * e.xx + 2 * e.xy * e.xy + e.yy * e.yy + e.zz * e.zz));
   }
   return std::sqrt(squares.total());
@@ -240,7 +197,7 @@ TEST(Kinematics, ResetsWhereThereIsHardlyASolid) {
   run.set_phi([](const Vec3&) { return Vec3{0.1, 0, 0}; });
   run.step(0.1);
   for (Index c = 0; c < run.mesh.n_cells; ++c) {
-    EXPECT_EQ(run.Bt[c] == SymTensor{}, run.mesh.C[c].x > 0.125);
+    EXPECT_EQ(run.kinematics.Bt[c] == SymTensor{}, run.mesh.C[c].x > 0.125);
   }
 }
 
@@ -249,13 +206,15 @@ TEST(Kinematics, TheDeformationOfACell) {
   Full run(plane(4, false, false));
   const SymTensor B{2, 0.5, 0, 1, 0, 1};
   run.kinematics.set(0, B, 0.25);
-  EXPECT_EQ(run.Bt[0], 0.5 * B);
+  EXPECT_EQ(run.kinematics.Bt[0], 0.5 * B);
   EXPECT_EQ(run.kinematics.B(0, 0.25), B);
   EXPECT_EQ(run.kinematics.B(0, 0.05), identity());
   run.alpha[0] = 0.25;
   CellField<SymTensor> aB(run.mesh);
-  run.kinematics.weigh(aB, run.alpha, std::vector<Index>{0});
+  CellField<Real> lambda(run.mesh);
+  run.kinematics.weigh(aB, lambda, run.alpha, std::vector<Index>{0});
   EXPECT_EQ(aB[0], 0.25 * B);
+  EXPECT_NEAR(lambda[0], 0.25 * eigen(B).value[2], 1e-15);
 }
 
 }  // namespace

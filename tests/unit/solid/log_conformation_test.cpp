@@ -8,18 +8,14 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/log_conformation.hpp"
-#include "tests/unit/support/box_file.hpp"
+#include "tests/unit/solid/full.hpp"
 
 namespace fsi {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
 
-Real largest(const SymTensor& t) {
-  Real m = 0;
-  for (const Real v : {t.xx, t.xy, t.xz, t.yy, t.yz, t.zz}) m = std::max(m, std::abs(v));
-  return m;
-}
+using test::largest;
 
 /// L . B + B . L^T.
 SymTensor stretching(const Tensor& L, const SymTensor& B) {
@@ -84,54 +80,7 @@ TEST(LogTensor, SpinKeepsTheStretches) {
   }
 }
 
-/// A mesh full of solid, with all that transport needs.
-struct Full {
-  explicit Full(const test::BoxFile& box)
-      : mesh(test::read_box(box)),
-        weights(mesh),
-        stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
-        alpha(mesh, 1),
-        phi(mesh),
-        u(mesh),
-        L(mesh),
-        kinematics(mesh),
-        grad(mesh) {
-    kinematics.set_undeformed(alpha);
-  }
-
-  void set_phi(const std::function<Vec3(const Vec3&)>& stream) {
-    for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(stream(mesh.Cf[f]), mesh.Sf[f]);
-  }
-  void set_B(const std::function<SymTensor(const Vec3&)>& B) {
-    for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set(c, B(mesh.C[c]), 1);
-    kinematics.resume(alpha);
-  }
-  void step(Real dt) {
-    kinematics.mark(alpha);
-    kinematics.transport(alpha, {phi, u, L, stencil, weights}, dt, grad);
-  }
-  /// Largest and root mean square component of B - exact.
-  Real error(const std::function<SymTensor(const Vec3&)>& exact, bool mean = false) const {
-    Real worst = 0;
-    Sum squares;
-    for (Index c = 0; c < mesh.n_owned; ++c) {
-      const SymTensor e = kinematics.B(c, 1) - exact(mesh.C[c]);
-      worst = std::max(worst, largest(e));
-      squares.add(mesh.V[c] * (e.xx * e.xx + 2 * e.xy * e.xy + e.yy * e.yy + e.zz * e.zz));
-    }
-    return mean ? std::sqrt(squares.total()) : global_max(worst);
-  }
-
-  Mesh mesh;
-  FaceWeights weights;
-  GradientStencil stencil;
-  CellField<Real> alpha;
-  FaceField<Real> phi;
-  CellField<Vec3> u;
-  CellField<Tensor> L;
-  solid::LogConformation kinematics;
-  CellField<solid::SymGradient> grad;
-};
+using Full = test::Full<solid::LogConformation>;
 
 test::BoxFile plane(Index n, bool simplex) {
   return {.n = {n, n, 0}, .simplex = simplex, .periodic = {"left", "right", "bottom", "top"}};
@@ -192,7 +141,7 @@ TEST(LogConformation, AdvectionIsOfSecondOrderInSpace) {
       run.set_phi([](const Vec3&) { return Vec3{1, 1, 0}; });
       const int steps = static_cast<int>(5 * n);
       for (int i = 0; i < steps; ++i) run.step(1.0 / steps);
-      return run.error(profile, true);
+      return run.mean_error(profile);
     };
     const Real coarse = error(24), fine = error(48), order = std::log2(coarse / fine);
     if (rank() == 0)
@@ -213,12 +162,10 @@ TEST(LogConformation, SmoothShearIsOfSecondOrder) {
         run.L[c].xy = 2 * pi * std::cos(2 * pi * run.mesh.C[c].y);
       const int steps = static_cast<int>(4 * n);
       for (int i = 0; i < steps; ++i) run.step(t / steps);
-      return run.error(
-          [&](const Vec3& x) {
-            const Real g = (std::sin(2 * pi * x.y) - std::sin(2 * pi * (x.y - V * t))) / V;
-            return SymTensor{1 + g * g, g, 0, 1, 0, 1};
-          },
-          true);
+      return run.mean_error([&](const Vec3& x) {
+        const Real g = (std::sin(2 * pi * x.y) - std::sin(2 * pi * (x.y - V * t))) / V;
+        return SymTensor{1 + g * g, g, 0, 1, 0, 1};
+      });
     };
     const Real coarse = error(24), fine = error(48), order = std::log2(coarse / fine);
     if (rank() == 0)
