@@ -83,11 +83,10 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       history_(mesh),
       now_(mesh),
       rhs_(mesh),
-      w_(mesh),
-      b_(static_cast<std::size_t>(mesh.n_owned)),
-      matrix_(mesh) {
+      w_(static_cast<std::size_t>(mesh.n_cells * mesh.dim)),
+      b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
+      system_(mesh, "u", 1e-6) {
   implicit_.assign(open_face_.size(), Vec3{1, 1, 1});
-  bool slip = false;
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
@@ -96,32 +95,29 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  for (const Condition& condition : conditions)
-    slip = slip || std::holds_alternative<Slip>(condition);
-  for (int i = 0; i < (slip ? mesh.dim : 1); ++i)
-    systems_.emplace_back(mesh, "u", Method::jacobi, false, 1e-8);
-  diagonal_.resize(systems_.size());
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
                         Real dt) {
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
-    for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
-    for (Index f = 0; f < mesh_.n_faces; ++f) {
-      Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
-      const Index P = mesh_.owner[f];
-      if (f < mesh_.n_internal) {
-        matrix_.off_diagonal[f] = -a;
-        const Index N = mesh_.neighbour[f];
-        if (N < mesh_.n_owned) matrix_.diagonal[N] += a;
-      } else {
-        a *= implicit_[f - mesh_.n_internal][static_cast<int>(i)];
-      }
-      if (P < mesh_.n_owned) matrix_.diagonal[P] += a;
+  const Index dim = mesh_.dim;
+  VectorMatrix& A = system_.matrix();
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] = rho_ * mesh_.V[c] / dt;
+  const auto add = [&](Index c, const Vec3& a) {
+    if (c >= mesh_.n_owned) return;
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
+  };
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
+    if (f >= mesh_.n_internal) {
+      add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
+      continue;
     }
-    systems_[i].assemble(matrix_);
-    diagonal_[i] = matrix_.diagonal;
+    A.off_diagonal[f] = -a;
+    add(mesh_.owner[f], {a, a, a});
+    add(mesh_.neighbour[f], {a, a, a});
   }
+  system_.renewed();
   assembled_ = {theta_now, dt};
 }
 
@@ -157,16 +153,16 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
   viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
   set_rhs(u_b, u_b_new, grad_p, mu, sources, theta_now, dt);
 
-  int iterations = 0;
-  for (int i = 0; i < mesh_.dim; ++i) {
-    const std::size_t system = systems_.size() > 1 ? static_cast<std::size_t>(i) : 0;
-    for (Index c = 0; c < mesh_.n_owned; ++c) {
-      b_[c] = rhs_[c][i];
-      w_[c] = b_[c] / diagonal_[system][c];
+  const Index dim = mesh_.dim;
+  const std::vector<Real>& diagonal = system_.matrix().diagonal;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = c * dim; i < (c + 1) * dim; ++i) {
+      b_[i] = rhs_[c][static_cast<int>(i - c * dim)];
+      w_[i] = b_[i] / diagonal[i];
     }
-    iterations += systems_[system].solve(w_, b_).iterations;
-    for (Index c = 0; c < mesh_.n_cells; ++c) u[c][i] += w_[c];
-  }
+  const int iterations = system_.solve(w_, b_).iterations;
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    for (Index i = 0; i < dim; ++i) u[c][static_cast<int>(i)] += w_[c * dim + i];
   history_.swap(now_);
   dt_old = dt;
   ++steps_taken;

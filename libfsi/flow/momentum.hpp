@@ -8,7 +8,7 @@
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
-#include "libfsi/operators/linear_system.hpp"
+#include "libfsi/operators/linear_system_vector.hpp"
 
 namespace fsi::flow {
 
@@ -55,7 +55,7 @@ class Momentum {
 
   /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
   /// mu_varies: in time and space; stiff: kappa does; without, it is zero for good.
-  /// Returns iterations of all components. Errors: Error{numerics}.
+  /// Returns the iterations. Errors: Error{numerics}.
   int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
               const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
               const CellField<Tensor>& L, const FaceField<Real>& phi, const FaceField<Real>& mu,
@@ -83,12 +83,8 @@ class Momentum {
   std::vector<Vec3>
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   CellField<Vec3> history_, now_, rhs_;
-  CellField<Real> w_;
-  std::vector<Real> b_;
-  FaceMatrix matrix_;
-  std::vector<std::vector<Real>> diagonal_;  // one a system
-  std::vector<LinearSystem>
-      systems_;  // one, or one a component where a slip plane tells them apart
+  std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]
+  VectorSystem system_;
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

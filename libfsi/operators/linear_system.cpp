@@ -97,9 +97,6 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       FSI_PETSC(PCSetType(pc, PCCHOLESKY));
       FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
       break;
-    case Method::jacobi:
-      FSI_PETSC(PCSetType(pc, PCJACOBI));
-      break;
   }
 }
 
@@ -154,11 +151,6 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
   for (std::size_t e = 0; e < h.face.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.face[e]];
   FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
-}
-
-void LinearSystem::assemble_constant(const FaceMatrix& matrix) {
-  assemble(matrix);
-  Handles& h = *handles_;
   Mat lean = nullptr;  // a copy leaves behind the map from entries to their places
   FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
   FSI_PETSC(MatDestroy(&h.matrix));

@@ -56,7 +56,7 @@ class LeftCauchyGreen {
 
   const Mesh& mesh_;
   Band band_;
-  CellField<SymTensor> old_, rate_;
+  std::vector<SymTensor> old_, rate_;  // beside the core of the band
 };
 
 }  // namespace fsi::solid

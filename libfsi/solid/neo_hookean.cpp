@@ -2,13 +2,13 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh) {}
+NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G) {}
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
                        const CellField<SymTensor>& aB, const FaceWeights& weights,
                        const GradientStencil& stencil, const Band& band,
                        CellField<SymGradient>& grad) {
-  for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad[c] = {};
+  for (const Index c : last_cells_) force[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
@@ -18,14 +18,13 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 
-  for (const Index c : band.core()) tau_[c] = G_ * dev(aB[c]);
-  mesh_.halo.update(tau_);
-  gradient(grad, tau_, stencil, mesh_, band.cells());
+  // tau = G dev(alpha B) is linear in alpha B: its gradients and face values follow from those
+  gradient(grad, aB, stencil, mesh_, band.cells());
   mesh_.halo.update(grad);
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     if (f >= mesh_.n_internal) {
-      force[P] += (1 / mesh_.V[P]) * dot(tau_[P], mesh_.Sf[f]);
+      force[P] += (1 / mesh_.V[P]) * dot(G_ * dev(aB[P]), mesh_.Sf[f]);
       continue;
     }
     const Index N = mesh_.neighbour[f];
@@ -36,13 +35,13 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
     const SymGradient grad_f{between(grad[P].x, grad[N].x), between(grad[P].y, grad[N].y),
                              between(grad[P].z, grad[N].z)};
     // tau_f = (1 - lambda) tau_P + lambda tau_N + (grad tau)_f . skew
-    SymTensor tau_f = between(tau_[P], tau_[N]);
-    if (weights.skewed) tau_f += along(grad_f, weights.skew[f]);
-    const Vec3 t = dot(tau_f, mesh_.Sf[f]);
+    SymTensor aB_f = between(aB[P], aB[N]);
+    if (weights.skewed) aB_f += along(grad_f, weights.skew[f]);
+    const Vec3 t = dot(G_ * dev(aB_f), mesh_.Sf[f]);
     force[P] += (1 / mesh_.V[P]) * t;
     force[N] -= (1 / mesh_.V[N]) * t;
     const Vec3 d = mesh_.d[f], n = d / norm(d);
-    balance[f] = dot(n, dot(tau_[N] - tau_[P] - along(grad_f, d), n));
+    balance[f] = dot(n, dot(G_ * dev(aB[N] - aB[P] - along(grad_f, d)), n));
   }
   mesh_.halo.update(force);
 }

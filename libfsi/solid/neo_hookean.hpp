@@ -16,6 +16,7 @@ class NeoHookean {
   /// cell's own at boundaries;
   /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
   /// stress. Zero outside the band of this and of the last call. force: owned and halo.
+  /// aB: owned and halo, zero beyond the band's core.
   /// grad: scratch that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const CellField<SymTensor>& aB,
              const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
@@ -26,7 +27,6 @@ class NeoHookean {
  private:
   const Mesh& mesh_;
   Real G_;
-  CellField<SymTensor> tau_;
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
 

@@ -41,10 +41,11 @@ void Body::weigh() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
-        for (const Index c : band.last_core()) lambda[c] = 0;
+        for (const Index c : band.last_core()) aB[c] = {}, lambda[c] = 0;
         eigenvalue_min = k.weigh(aB, lambda, alpha, band.core());
       },
       kinematics);
+  mesh.halo.update(aB);
   mesh.halo.update(lambda);
 }
 

@@ -47,7 +47,7 @@ struct Body {
 
   const Mesh& mesh;
   CellField<Real> alpha;     ///< volume fraction of the solid
-  CellField<SymTensor> aB;   ///< alpha B, on the band's core
+  CellField<SymTensor> aB;   ///< alpha B on the band's core, zero elsewhere; owned and halo
   CellField<Real> lambda;    ///< largest eigenvalue of aB; owned and halo
   Real t = 0;                ///< time of alpha and B
   Real strain_rate = 0;      ///< largest rate of log B following the solid, in its last step
