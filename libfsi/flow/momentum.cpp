@@ -163,7 +163,7 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
   const int iterations = system_.solve(w_, b_).iterations;
   for (Index c = 0; c < mesh_.n_cells; ++c)
     for (Index i = 0; i < dim; ++i) u[c][static_cast<int>(i)] += w_[c * dim + i];
-  history_.swap(now_);
+  history_.assign(now_);  // in place: checkpoints and backups know its address
   dt_old = dt;
   ++steps_taken;
   return iterations;

@@ -37,6 +37,8 @@ struct LinearSystem::Handles {
 
 namespace {
 
+constexpr PetscReal no_absolute = 1e-300;  // that nobody would ask for
+
 /// Puts an option into the database unless the user did.
 void prefer(const std::string& prefix, const std::string& option, const char* value) {
   const std::string name = "-" + prefix + option;
@@ -134,7 +136,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(KSPSetOptionsPrefix(h.solver, (name + "_").c_str()));
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   set_defaults(name + "_", method, h.solver);
-  FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+  FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
   FSI_PETSC(KSPSetFromOptions(h.solver));
 }
 
@@ -169,13 +171,14 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
     FSI_PETSC(MatGetNullSpace(h.matrix, &constant));
     FSI_PETSC(MatNullSpaceRemove(constant, h.b));
   }
-  PetscReal rtol = 0, divergence = 0;
+  PetscReal rtol = 0, given = 0, divergence = 0;
   PetscInt its = 0, most = 0;
-  FSI_PETSC(KSPGetTolerances(h.solver, &rtol, nullptr, &divergence, &most));
-  FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5), std::max(absolute, 1e-300),
-                             divergence, most));
+  FSI_PETSC(KSPGetTolerances(h.solver, &rtol, &given, &divergence, &most));
+  if (given != no_absolute) absolute = given;  // the user's word
+  FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5),
+                             std::max(absolute, no_absolute), divergence, most));
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
-  FSI_PETSC(KSPSetTolerances(h.solver, rtol, PETSC_DEFAULT, divergence, most));
+  FSI_PETSC(KSPSetTolerances(h.solver, rtol, given, divergence, most));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   Solve result;
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
@@ -185,9 +188,8 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics, "system \"" + h.name +
-                                    "\" did not converge: " + KSPConvergedReasons[reason] +
-                                    " after " + std::to_string(its) + " iterations");
+    throw Error(Kind::numerics,
+                "system \"" + h.name + "\" did not converge: " + KSPConvergedReasons[reason]);
   h.mesh.halo.update(x);
   return result;
 }

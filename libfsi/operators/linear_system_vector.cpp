@@ -98,8 +98,8 @@ PetscErrorCode copy_diagonal(Mat shell, Vec diagonal) noexcept {
 void make_shell(Mat* shell, PetscInt n, void* context) {
   FSI_PETSC(MatCreateShell(comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, context, shell));
   FSI_PETSC(MatShellSetOperation(*shell, MATOP_MULT, reinterpret_cast<void (*)()>(apply)));
-  FSI_PETSC(
-      MatShellSetOperation(*shell, MATOP_GET_DIAGONAL, reinterpret_cast<void (*)()>(copy_diagonal)));
+  FSI_PETSC(MatShellSetOperation(*shell, MATOP_GET_DIAGONAL,
+                                 reinterpret_cast<void (*)()>(copy_diagonal)));
   FSI_PETSC(MatSetOption(*shell, MAT_SYMMETRIC, PETSC_TRUE));
   FSI_PETSC(MatSetOption(*shell, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   FSI_PETSC(MatSetOption(*shell, MAT_SPD, PETSC_TRUE));
@@ -159,9 +159,8 @@ Solve VectorSystem::solve(std::span<Real> x, std::span<Real> b) {
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics, "system \"" + h.name +
-                                    "\" did not converge: " + KSPConvergedReasons[reason] +
-                                    " after " + std::to_string(its) + " iterations");
+    throw Error(Kind::numerics,
+                "system \"" + h.name + "\" did not converge: " + KSPConvergedReasons[reason]);
   h.op.mesh.halo.update(x.data(), h.op.mesh.dim);
   return result;
 }

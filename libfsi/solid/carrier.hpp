@@ -17,7 +17,8 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;
 }
 
-/// Gradient of T on the listed owned cells, with zero gradient at boundaries.
+/// Gradient of T on the listed owned cells. stencil: without given boundary values, so that linear
+/// fields are exact beside boundaries as well.
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
               const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
 
@@ -25,8 +26,8 @@ void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
 struct Carrier {
   const FaceField<Real>& phi;
   const CellField<Vec3>& u;
-  const CellField<Tensor>& L;  ///< velocity gradient
-  const GradientStencil& stencil;
+  const CellField<Tensor>& L;      ///< velocity gradient
+  const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
 };
 

@@ -24,7 +24,9 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     if (f >= mesh_.n_internal) {
-      force[P] += (1 / mesh_.V[P]) * dot(G_ * dev(aB[P]), mesh_.Sf[f]);
+      // tau_b = tau_P + grad tau . d
+      const SymTensor aB_b = aB[P] + along(grad[P], mesh_.d[f]);
+      force[P] += (1 / mesh_.V[P]) * dot(G_ * dev(aB_b), mesh_.Sf[f]);
       continue;
     }
     const Index N = mesh_.neighbour[f];

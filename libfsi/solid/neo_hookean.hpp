@@ -12,8 +12,8 @@ class NeoHookean {
   NeoHookean(const Mesh& mesh, Real G);
 
   /// Collective. tau_c = G dev(alpha B)                                   [Matsumiya25] (11)
-  /// force_c = (1/V) sum_f tau_f . S_f, tau_f linear between cells with skewness correction, the
-  /// cell's own at boundaries;
+  /// force_c = (1/V) sum_f tau_f . S_f, tau_f linear between cells with skewness correction,
+  /// continued linearly to boundaries;
   /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
   /// stress. Zero outside the band of this and of the last call. force: owned and halo.
   /// aB: owned and halo, zero beyond the band's core.

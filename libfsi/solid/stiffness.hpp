@@ -24,7 +24,7 @@ struct Stiffening {
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
 ///
-///   div(k grad (u* - u^n)),   k = 0.3 dt G min(lambda, 20)
+///   div(k grad (u* - u^n)),   k = 0.3 dt G lambda
 ///
 /// stands in for the change of the elastic stress over the step, which with leapfrog is
 /// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any

@@ -109,11 +109,12 @@ void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
 
 std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (time.step > 0) return {{time.step, "fixed"}};
+  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}};
   // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
   // run is then small enough.
-  Real start = time.end / 100;
-  if (solver.state().step == 0) start = std::min(start, solver.boundary_dt(time.courant));
-  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}, {start, "start"}};
+  constexpr int steps_of_start = 10;
+  if (solver.state().step < steps_of_start)
+    all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
   if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
   constexpr Real strain = 0.4;  // below what a step is rejected for
   if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});

@@ -59,6 +59,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  if (weights_.skewed) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
   const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_,
                               mu_,      kappa_,  1,    physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
@@ -126,7 +127,7 @@ void Solver::advance_interface(Real t) {
 
 void Solver::transport_elastic() {
   const Profile::Phase phase(profile_, solid_phase_);
-  const solid::Carrier carrier{state_.phi, state_.u, L_, u_stencil_, weights_};
+  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
@@ -156,7 +157,8 @@ void Solver::stiffen(Real dt) {
 
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->law.apply(force_, balance_, body_->aB, weights_, u_stencil_, body_->band, body_->grad);
+  body_->law.apply(force_, balance_, body_->aB, weights_, projection_.stencil(), body_->band,
+                   body_->grad);
   solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
                         body_->band.core());
 }
@@ -200,10 +202,9 @@ void Solver::check() const {
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)
-    for (const Index c : body_->band.cells()) sum += body_->alpha[c] + trace(body_->aB[c]);
+    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->aB[c]);
   if (!all_of_ranks(std::isfinite(sum)))
-    throw Error(Kind::numerics, "velocity, pressure or strain is not finite after step " +
-                                    std::to_string(state_.step + 1));
+    throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
 }
 
 Real Solver::advective_dt(Real courant) const {
