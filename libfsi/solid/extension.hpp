@@ -42,6 +42,8 @@ class Extension {
   std::span<const Index> inside() const { return std::span(set_).first(inside_); }
   /// Whether cell c was an inner one, thin parts not counted, in the last call.
   bool inner(Index c) const { return layer_of_[c] == inner_layer; }
+  /// Known cells that are not inner ones, in the last call.
+  std::span<const Index> outer() const { return outer_; }
   /// Owned cells of the last layer.
   std::span<const Index> last_layer() const { return std::span(set_).subspan(inside_); }
 

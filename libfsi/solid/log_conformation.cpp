@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libfsi/solid/log_tensor.hpp"
+#include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -53,6 +54,17 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
+Tensor LogConformation::solid_L(const Carrier& carrier, Index c) const {
+    const CellField<Real>& alpha = *alpha_;
+    bool inner = true;
+    for (const Index f : mesh_.cell_faces[c])
+      if (f < mesh_.n_internal)
+        inner = inner &&
+                alpha[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]] >= alpha_known;
+    return inner||alpha[c]<alpha_known ? carrier.L[c]
+                       : one_sided_gradient(carrier.L[c], carrier.u, alpha, alpha_known, mesh_, c);
+}
+
 Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
                            CellField<SymGradient>& grad) {
   const FaceWeights& weights = carrier.weights;
@@ -76,7 +88,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       if (weights.skewed) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
-    const SymTensor strain = log_rate(carrier.L[c], psi[c]);
+    const SymTensor strain = log_rate(solid_L(carrier,c), psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
     rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
@@ -88,6 +100,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   const std::vector<Index>&cells = known_.cells(), &core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
+  alpha_=&alpha;
   rate(cells, carrier, grad);
   for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
   mesh_.halo.update(psi);

@@ -61,6 +61,9 @@ class LogConformation {
   Band known_;
   Extension extension_;
   std::vector<SymTensor> old_, rate_;  // beside the list of cells worked on
+  std::vector<Tensor> L_;  // beside known_.core(): velocity gradient of the solid's own side
+  Tensor solid_L(const Carrier& carrier, Index c) const;
+  const CellField<Real>* alpha_=nullptr;
 };
 
 }  // namespace fsi::solid
