@@ -21,6 +21,10 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
 /// fields are exact beside boundaries as well.
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
               const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+/// The same of alpha T.
+void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
+              const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
+              std::span<const Index> cells);
 
 /// The flow, frozen over a step of the solid.
 struct Carrier {

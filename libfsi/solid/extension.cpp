@@ -8,6 +8,14 @@
 
 namespace fsi::solid {
 
+bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
+  for (const Index f : mesh.cell_faces[c])
+    if (f < mesh.n_internal &&
+        !(alpha[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known))
+      return false;
+  return true;
+}
+
 Extension::Extension(const Mesh& mesh)
     : mesh_(mesh), layer_of_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
   for (Index c = 0; c < mesh.n_owned; ++c) {
@@ -20,13 +28,8 @@ Extension::Extension(const Mesh& mesh)
 void Extension::mark_inner(const CellField<Real>& alpha, const Band& known) {
   outer_.clear();
   for (const Index c : known.core()) {
-    bool inner = true;
-    for (const Index f : mesh_.cell_faces[c])
-      if (f < mesh_.n_internal)
-        inner = inner &&
-                alpha[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]] >= alpha_known;
     set_.push_back(c);
-    if (inner) {
+    if (is_inner(c, alpha, mesh_)) {
       layer_of_[c] = inner_layer;
     } else {
       outer_.push_back(c);

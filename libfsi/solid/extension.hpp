@@ -13,6 +13,9 @@ namespace fsi::solid {
 /// Cells from this fraction of solid on know their own deformation.
 inline constexpr Real alpha_known = 0.5;
 
+/// Whether all face neighbours of c are known.
+bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh);
+
 /// Continues a tensor known inside the solid into the cells around it, and lets it relax to that
 /// continuation in the outermost cells of the solid, where the velocity gradient has a kink that
 /// the mesh does not resolve.
@@ -42,8 +45,6 @@ class Extension {
   std::span<const Index> inside() const { return std::span(set_).first(inside_); }
   /// Whether cell c was an inner one, thin parts not counted, in the last call.
   bool inner(Index c) const { return layer_of_[c] == inner_layer; }
-  /// Known cells that are not inner ones, in the last call.
-  std::span<const Index> outer() const { return outer_; }
   /// Owned cells of the last layer.
   std::span<const Index> last_layer() const { return std::span(set_).subspan(inside_); }
 
@@ -56,7 +57,7 @@ class Extension {
   Vec3 mean(const CellField<Vec3>& u, const CellField<Real>& alpha, const Band& known) const;
 
   const Mesh& mesh_;
-  std::vector<Real> h_;  // [n_owned] V / max |Sf|
+  std::vector<Real> h_;       // [n_owned] V / max |Sf|
   CellField<Real> layer_of_;  // that set a cell's T; 0: not set
   std::vector<Index> set_, last_set_, outer_, layer_;
   std::vector<SymTensor> values_, own_;  // own_: of the cells in outer_, before

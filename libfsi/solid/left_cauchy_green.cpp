@@ -22,8 +22,7 @@ SymTensor stretch(const Tensor& L, const SymTensor& B) {
 
 }  // namespace
 
-LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh)
-    : Bt(mesh), mesh_(mesh), band_(mesh) {}
+LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : Bt(mesh), mesh_(mesh), band_(mesh) {}
 
 void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
   for (Index c = 0; c < mesh_.n_cells; ++c)
@@ -67,11 +66,12 @@ Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& car
   return 0;
 }
 
-Real LeftCauchyGreen::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
                             const CellField<Real>& alpha, std::span<const Index> cells) const {
   for (const Index c : cells) {
-    aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
-    lambda[c] = eigen(aB[c]).value[2];
+    const bool strained = alpha[c] >= alpha_min;
+    B[c] = strained ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
+    lambda[c] = strained ? alpha[c] * eigen(B[c]).value[2] : 0;
   }
   return 1;
 }

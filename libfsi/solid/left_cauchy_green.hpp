@@ -20,6 +20,8 @@ class LeftCauchyGreen {
   static constexpr Real alpha_min = 0.1;
   /// Where in a step the solid stands when the momentum equation is solved: at its end.
   static constexpr Real ahead = 1;
+  /// Whether B is known around the solid as well.
+  static constexpr bool extended = false;
 
   /// Bt with B = I where alpha >= alpha_min. Halo set.
   void set_undeformed(const CellField<Real>& alpha);
@@ -42,9 +44,9 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
-  /// eigenvalue of B, which this kinematics does not watch: 1.
-  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
+  /// B (zero where alpha < alpha_min) and lambda, the largest eigenvalue of alpha B, on the listed
+  /// cells. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
+  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;

@@ -54,15 +54,12 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
-Tensor LogConformation::solid_L(const Carrier& carrier, Index c) const {
-    const CellField<Real>& alpha = *alpha_;
-    bool inner = true;
-    for (const Index f : mesh_.cell_faces[c])
-      if (f < mesh_.n_internal)
-        inner = inner &&
-                alpha[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]] >= alpha_known;
-    return inner||alpha[c]<alpha_known ? carrier.L[c]
-                       : one_sided_gradient(carrier.L[c], carrier.u, alpha, alpha_known, mesh_, c);
+void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
+  L_.clear();
+  for (const Index c : known_.core())
+    L_.push_back(is_inner(c, alpha, mesh_)
+                     ? carrier.L[c]
+                     : one_sided_gradient(carrier.L[c], carrier.u, alpha, alpha_known, mesh_, c));
 }
 
 Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
@@ -73,7 +70,8 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
   mesh_.halo.update(grad);
   Real fastest = 0;
   rate_.clear();
-  for (const Index c : cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Index c = cells[i];
     // -(1/V) sum_f phi_f (psi_f - psi_c),
     // psi_f = psi_up + 2 w limited(psi_down - psi_up) + grad psi_up . skew, w the share of |d|
     SymTensor sum;
@@ -88,7 +86,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       if (weights.skewed) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
-    const SymTensor strain = log_rate(solid_L(carrier,c), psi[c]);
+    const SymTensor strain = log_rate(i < L_.size() ? L_[i] : carrier.L[c], psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
     rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
@@ -100,7 +98,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   const std::vector<Index>&cells = known_.cells(), &core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
-  alpha_=&alpha;
+  set_L(alpha, carrier);
   rate(cells, carrier, grad);
   for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
   mesh_.halo.update(psi);
@@ -112,13 +110,13 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   return fastest;
 }
 
-Real LogConformation::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
                             const CellField<Real>& alpha, std::span<const Index> cells) const {
   Real least = 0;
   for (const Index c : cells) {
     const Eigen e = eigen(psi[c]);
-    least = std::min(least, e.value[0]);
-    aB[c] = alpha[c] * exp(e);
+    if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
+    B[c] = exp(e);
     lambda[c] = alpha[c] * std::exp(e.value[2]);
   }
   return std::exp(least);

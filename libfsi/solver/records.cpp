@@ -112,7 +112,7 @@ std::vector<Real> values(const std::vector<Entry>& row) {
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
   CellField<SymTensor> B(mesh, identity());
   for (Index c = 0; c < mesh.n_cells; ++c)
-    if (body.alpha[c] > 0) B[c] = body.B(c);
+    if (body.alpha[c] > 0) B[c] = body.B_of(c);
   return B;
 }
 

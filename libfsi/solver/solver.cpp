@@ -72,7 +72,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
 }
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
-  body_.emplace(mesh_, shape, physics_.G, kind);
+  body_.emplace(mesh_, weights_, shape, physics_.G, kind);
   body_->t = state_.t;
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
@@ -157,7 +157,9 @@ void Solver::stiffen(Real dt) {
 
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->law.apply(force_, balance_, body_->aB, weights_, projection_.stencil(), body_->band,
+  const solid::Strained strained{body_->B, body_->alpha,
+                                 body_->extended() ? &body_->alpha_f : nullptr};
+  body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
   solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
                         body_->band.core());
@@ -202,7 +204,7 @@ void Solver::check() const {
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)
-    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->aB[c]);
+    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
 }
