@@ -71,7 +71,7 @@ Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
   for (const Index c : cells) {
     const bool strained = alpha[c] >= alpha_min;
     B[c] = strained ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
-    lambda[c] = strained ? alpha[c] * eigen(B[c]).value[2] : 0;
+    lambda[c] = strained ? eigen(B[c]).value[2] : 0;
   }
   return 1;
 }

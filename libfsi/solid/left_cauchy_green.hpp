@@ -44,7 +44,7 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// B (zero where alpha < alpha_min) and lambda, the largest eigenvalue of alpha B, on the listed
+  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the listed
   /// cells. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
   Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;

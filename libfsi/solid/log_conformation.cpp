@@ -117,7 +117,7 @@ Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
     const Eigen e = eigen(psi[c]);
     if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
     B[c] = exp(e);
-    lambda[c] = alpha[c] * std::exp(e.value[2]);
+    lambda[c] = std::exp(e.value[2]);
   }
   return std::exp(least);
 }

@@ -44,7 +44,7 @@ class LogConformation {
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
-  /// B and lambda, the largest eigenvalue of alpha B, on the listed cells. Returns the smallest
+  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
   /// eigenvalue of B among those with solid, at most 1.
   Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;

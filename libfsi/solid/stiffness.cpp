@@ -38,6 +38,7 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     const Index P = mesh_.owner[f];
     Real l = lambda[P];
     if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
+    l *= solid.alpha[f];
     kappa[f] = share * solid.dt * solid.G * l;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];

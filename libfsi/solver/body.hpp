@@ -37,7 +37,7 @@ struct Body {
   /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
   void weigh();
   /// Whether elasticity may be treated implicitly: the paper's scheme does not.
-  bool semi_implicit() const { return !std::holds_alternative<solid::LeftCauchyGreen>(kinematics); }
+  bool semi_implicit() const { return extended(); }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);
@@ -56,7 +56,7 @@ struct Body {
   CellField<Real> alpha;     ///< volume fraction of the solid
   CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
   FaceField<Real> alpha_f;   ///< part of solid at the band's faces, where B is extended
-  CellField<Real> lambda;    ///< largest eigenvalue of alpha B; owned and halo
+  CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
   Real t = 0;                ///< time of alpha and B
   Real strain_rate = 0;      ///< largest rate of log B following the solid, in its last step
   Real eigenvalue_min = 1;   ///< of B on this rank

@@ -141,6 +141,9 @@ void Solver::transport_elastic() {
 void Solver::mix_viscosity() {
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
+  if (!body_->extended()) return;
+  for (const Index f : body_->band.faces())
+    mu_[f] = physics_.mu_f + body_->alpha_f[f] * (physics_.mu_s - physics_.mu_f);
 }
 
 void Solver::stiffen(Real dt) {
@@ -150,9 +153,9 @@ void Solver::stiffen(Real dt) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
     mesh_.halo.update(L_);
   }
-  body_->stiffness.apply(kappa_, force_,
-                         {body_->lambda, state_.u, L_, physics_.G, physics_.rho, dt}, weights_,
-                         body_->band);
+  body_->stiffness.apply(
+      kappa_, force_, {body_->lambda, body_->alpha_f, state_.u, L_, physics_.G, physics_.rho, dt},
+      weights_, body_->band);
 }
 
 void Solver::set_elastic_force() {

@@ -15,10 +15,10 @@ namespace fsi::vof {
 Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Real s1);
 
 /// alpha_f: the part of solid between the centres of the two cells of a face, in the prism that the
-/// face sweeps along d: what a flux over this distance passes through. From the plane of a cell,
+/// face sweeps along d, through which a flux over this distance passes. From the plane of a cell,
 /// the mean of both where both have one; without any, alpha_f = (1 - lambda) alpha_P + lambda
-/// alpha_N. Boundary faces: alpha of the cell. Sets the listed faces. alpha, interface: owned and
-/// halo.
+/// alpha_N: what interface there is lies on the face. Boundary faces: alpha of the cell. Sets the
+/// listed faces. alpha, interface: owned and halo.
 void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces);
