@@ -167,7 +167,7 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
     iterations += systems_[system].solve(w_, b_).iterations;
     for (Index c = 0; c < mesh_.n_cells; ++c) u[c][i] += w_[c];
   }
-  history_.swap(now_);
+  history_.assign(now_);  // not swapped: what refers to its storage stays valid
   dt_old = dt;
   ++steps_taken;
   return iterations;
