@@ -30,6 +30,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       options_(options),
       solver_(solver),
       driver_(driver),
+      simulated_(simulated(options)),
       lock_(io::make_directory(which.output.directory)),
       checkpoints_(which.output.directory, solver.mesh()),
       record_(which.solid.name == "torus"),
@@ -37,13 +38,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       field_(which.output.field_interval),
       checkpoint_(which.output.checkpoint_interval) {
   if (which.output.restart) {
-    checkpoints_.read(snapshot());
-    solver_.resume();
-    saved_step_ = solver_.state().step;
-    for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
-    if (rank() == 0)
-      std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
-                  static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
+    go_on_from_checkpoint();
   } else {
     checkpoints_.clear();
     checkpoint_.resume(0);  // the start needs none
@@ -102,8 +97,27 @@ std::string Output::where() const {
                  : "; the state could not be saved";
 }
 
+void Output::go_on_from_checkpoint() {
+  const std::string now = simulated_;
+  checkpoints_.read(snapshot());
+  const std::string notice = differences(simulated_, now);
+  simulated_ = now;
+  solver_.resume();
+  saved_step_ = solver_.state().step;
+  for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
+  if (rank() != 0) return;
+  if (!notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
+  std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
+              static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
+}
+
 io::Snapshot Output::snapshot() {
-  io::Snapshot all("driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no"));
+  std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
+  if (const std::optional<Body>& body = solver_.body())
+    identity +=
+        body->semi_implicit() ? " kinematics=log_conformation" : " kinematics=left_cauchy_green";
+  io::Snapshot all(identity);
+  all.add("simulated", &simulated_);
   solver_.list(all);
   all.add("rejected_steps", &solver_.report().rejected);
   if (solver_.body()) record_.list(all);

@@ -25,8 +25,9 @@ class Output {
  public:
   /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
   /// earlier one left there under the same names; with -restart the solver's state, the tables and
-  /// the series of fields go on from the newest sound checkpoint. Errors: Error{io}; Error{input}
-  /// where another run holds the directory or there is nothing to go on from.
+  /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
+  /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
+  /// directory, there is nothing to go on from, or it is of another driver or kinematics.
   Output(const Case& which, const Options& options, Solver& solver, const std::string& driver);
   ~Output();
   Output(const Output&) = delete;
@@ -47,6 +48,7 @@ class Output {
 
  private:
   io::Snapshot snapshot();
+  void go_on_from_checkpoint();
   void saving(const std::function<void()>& write);
   std::string rescue(Kind kind);
   bool saved() const;
@@ -64,7 +66,7 @@ class Output {
   const Case& case_;
   const Options& options_;
   Solver& solver_;
-  std::string driver_;
+  std::string driver_, simulated_;
   io::Lock lock_;
   io::Checkpoint checkpoints_;
   SolidRecord record_;
