@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "libfsi/core/parallel.hpp"
+
 namespace fsi::flow {
 
 void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
@@ -101,6 +103,21 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
   for (int i = 0; i < (slip ? mesh.dim : 1); ++i)
     systems_.emplace_back(mesh, "u", Method::jacobi, false, 1e-8);
   diagonal_.resize(systems_.size());
+  if (!weights.non_orthogonal) return;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += weights.g[f];
+    spread_ = std::max(spread_, sum / mesh.V[c]);
+  }
+  spread_ = global_max(spread_);
+}
+
+// In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit
+// rest. The step z of (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2
+// first leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt).
+Real Momentum::theta_at(Real dt) const {
+  constexpr Real rest = 0.25;  // -r may be as large
+  return spread_ > 0 ? std::max(theta, 0.5 + rest - rho_ / (mu_0_ * spread_ * dt)) : theta;
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
@@ -146,7 +163,7 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
                       bool stiff, const Sources& sources, Real dt) {
   constexpr int damped_steps = 2;
-  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
+  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta_at(dt);
   if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
     assemble(mu, kappa, theta_now, dt);
 
