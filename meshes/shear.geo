@@ -79,6 +79,7 @@ If (simplex)
   Mesh.CharacteristicLengthFromPoints = 0;
   Mesh.CharacteristicLengthExtendFromBoundary = 0;
   Mesh.Algorithm = 6;
+  Mesh.Algorithm3D = 10;
 Else
   // Widths of the layers from -a to a, as parts of H.
   inner = 2 * Ceil(core * n - 1e-9);

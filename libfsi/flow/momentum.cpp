@@ -116,7 +116,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
 // rest. The step z of (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2
 // first leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt).
 Real Momentum::theta_at(Real dt) const {
-  constexpr Real rest = 0.25;  // -r may be as large
+  constexpr Real rest = 0.5;  // -r may be as large
   return spread_ > 0 ? std::max(theta, 0.5 + rest - rho_ / (mu_0_ * spread_ * dt)) : theta;
 }
 

@@ -70,7 +70,7 @@ class Momentum {
   Real theta = 0.5;  ///< after the first steps, at least
   /// The theta of a step of dt: more than `theta` on non-orthogonal meshes where viscosity smooths
   /// a cell within the step; the explicit rest would else make it unstable. From 1/2 for
-  /// mu dt / rho sum g / V < 4 it rises to 3/4.
+  /// mu dt / rho sum g / V < 2 it rises to 1.
   Real theta_at(Real dt) const;
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
