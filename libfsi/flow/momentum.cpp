@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "libfsi/core/parallel.hpp"
+
 namespace fsi::flow {
 
 void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
@@ -38,7 +40,6 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
                      const FaceWeights& weights, const Mesh& mesh) {
-  visc.fill({});
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Vec3 flux = mu[f] * weights.g[f] * (u[N] - u[P]);
@@ -95,6 +96,26 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
+  if (!weights.non_orthogonal) return;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += weights.g[f];
+    spread_ = std::max(spread_, sum / mesh.V[c]);
+  }
+  spread_ = global_max(spread_);
+}
+
+// In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit
+// rest. With Adams-Bashforth the step z,
+//   (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2,
+// leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
+// theta = 1 it stays inside for |r| < 1.
+Real Momentum::theta_at(Real dt) const {
+  return spread_ > 0 ? std::max(theta, 1 - rho_ / (mu_0_ * spread_ * dt)) : theta;
+}
+
+Real Momentum::extrapolated(Real dt) const {
+  return spread_ > 0 ? std::min(Real{1}, 2 * rho_ / (mu_0_ * spread_ * dt)) : 1;
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
@@ -142,14 +163,19 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
                       bool stiff, const Sources& sources, Real dt) {
   constexpr int damped_steps = 2;
-  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
+  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta_at(dt);
   if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
     assemble(mu, kappa, theta_now, dt);
 
   convection(now_, phi, u, u_b, L, weights_, mesh_);
-  for (Index c = 0; c < mesh_.n_owned; ++c) now_[c] *= -rho_;
+  rhs_.fill({});
   if (weights_.non_orthogonal || mu_varies)
-    viscous_rest(now_, mu, mu_0_, L, open_face_, weights_, mesh_);
+    viscous_rest(rhs_, mu, mu_0_, L, open_face_, weights_, mesh_);
+  const Real share = extrapolated(dt);
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    now_[c] = share * rhs_[c] - rho_ * now_[c];
+    rhs_[c] *= 1 - share;
+  }
   viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
   set_rhs(u_b, u_b_new, grad_p, mu, sources, theta_now, dt);
 

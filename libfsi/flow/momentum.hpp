@@ -22,7 +22,7 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
                 const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
                 const FaceWeights& weights, const Mesh& mesh);
 
-/// visc_c = sum_f mu_f g_f (u_N - u_P): the compact part of div(mu grad u) over owned cells.
+/// visc_c += sum_f mu_f g_f (u_N - u_P): the compact part of div(mu grad u) over owned cells.
 /// Faces of openings carry no viscous flux.
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
@@ -67,18 +67,25 @@ class Momentum {
   const CellField<Vec3>& history() const { return history_; }
   Real dt_old = 0;
   std::int64_t steps_taken = 0;
-  Real theta = 0.5;  ///< after the first steps
+  Real theta = 0.5;  ///< after the first steps, at least
+  /// The theta of a step of dt: more than `theta` on non-orthogonal meshes where viscosity smooths
+  /// a cell within the step, since the explicit rest would make it unstable. From 1/2 where
+  /// l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
+  Real theta_at(Real dt) const;
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 
  private:
   void assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now, Real dt);
+  /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
+  Real extrapolated(Real dt) const;
   void set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
                const CellField<Vec3>& grad_p, const FaceField<Real>& mu, const Sources& sources,
                Real theta_now, Real dt);
   const Mesh& mesh_;
   const FaceWeights& weights_;
   Real rho_, mu_0_;
+  Real spread_ = 0;  // largest sum over a cell's faces of g / V; 0 on orthogonal meshes
   std::vector<char> open_face_;
   std::vector<Vec3>
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal

@@ -11,6 +11,7 @@
 #include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/taylor.hpp"
 
 namespace fsi {
 namespace {
@@ -162,6 +163,9 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
   row.push_back({"overshoot", body.advected.remaining});
+  const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
+  row.push_back({"taylor", shape.deformation});
+  row.push_back({"taylor_angle", shape.angle});
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

@@ -180,8 +180,8 @@ void Solver::predict_momentum(Real dt) {
 void Solver::predict_flux(Real dt) {
   const Profile::Phase phase(profile_, flux_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_, mu_,
-                              kappa_,   momentum_.theta, physics_.rho, dt};
+  const flow::FluxTerms terms{
+      state_.p, grad_p_, p_b_, L_, balance_, mu_, kappa_, momentum_.theta_at(dt), physics_.rho, dt};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 
