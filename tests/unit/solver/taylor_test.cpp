@@ -19,7 +19,8 @@ Error measured(const Mesh& mesh, Real z) {
   const shapes::Shape shape = shapes::translate(
       shapes::rotate(shapes::ellipsoid({0.27, 0.18, 0.2}), {0, 0, 1}, angle * shapes::pi / 180),
       {0.513, 0.497, z});
-  const Body body(mesh, shape, 1, KinematicsKind::log_conformation);
+  const FaceWeights weights(mesh);
+  const Body body(mesh, weights, shape, 1, KinematicsKind::log_conformation);
   const CellField<Vec3> u(mesh);
   const Taylor t = taylor(body, u, {0.5, 0.5, z}, 0);
   return {std::abs(t.deformation / 0.2 - 1), std::abs(t.angle - angle)};
@@ -42,7 +43,8 @@ TEST(Taylor, Ellipsoid) {
 // In the flow u = (y, 0) the moments change as those of x + t y do.
 TEST(Taylor, MovedOnWithTheFlow) {
   const Mesh mesh = test::box_mesh({.n = {64, 64, 0}});
-  const Body body(mesh, shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0}), 1,
+  const FaceWeights weights(mesh);
+  const Body body(mesh, weights, shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0}), 1,
                   KinematicsKind::log_conformation);
   CellField<Vec3> u(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) u[c] = {mesh.C[c].y, 0, 0};
