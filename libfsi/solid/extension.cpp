@@ -8,6 +8,9 @@
 
 namespace fsi::solid {
 
+namespace {
+
+/// Whether all face neighbours of c are known.
 bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   for (const Index f : mesh.cell_faces[c])
     if (f < mesh.n_internal &&
@@ -16,8 +19,13 @@ bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   return true;
 }
 
+}  // namespace
+
 Extension::Extension(const Mesh& mesh)
-    : mesh_(mesh), layer_of_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
+    : mesh_(mesh),
+      inner_(mesh),
+      layer_of_(mesh),
+      stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Real area = 0;
     for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm(mesh.Sf[f]));
@@ -25,21 +33,28 @@ Extension::Extension(const Mesh& mesh)
   }
 }
 
-void Extension::mark_inner(const CellField<Real>& alpha, const Band& known) {
-  outer_.clear();
+void Extension::mark(const CellField<Real>& alpha, const Band& known) {
+  for (const Index c : known.last_core()) inner_[c] = 0;
+  for (const Index c : known.core()) inner_[c] = is_inner(c, alpha, mesh_) ? 1 : 0;
+  mesh_.halo.update(inner_);
+}
+
+void Extension::sort(const Band& known) {
+  for (const Index c : set_) layer_of_[c] = 0;
+  last_set_.swap(set_);
+  set_.clear(), outer_.clear();
   for (const Index c : known.core()) {
     set_.push_back(c);
-    if (is_inner(c, alpha, mesh_)) {
+    if (inner(c)) {
       layer_of_[c] = inner_layer;
     } else {
       outer_.push_back(c);
     }
   }
-  mesh_.halo.update(layer_of_);
   layer_.clear();
   std::erase_if(outer_, [&](Index c) {
     for (const Index n : mesh_.cell_neighbours[c])
-      if (layer_of_[n] == inner_layer) return false;
+      if (inner(n)) return false;
     layer_.push_back(c);
     return true;
   });
@@ -108,10 +123,7 @@ void Extension::relax(CellField<SymTensor>& T, const CellField<Vec3>& u, const V
 
 void Extension::apply(CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known,
                       const CellField<Vec3>& u, Real dt) {
-  for (const Index c : set_) layer_of_[c] = 0;
-  last_set_.swap(set_);
-  set_.clear();
-  mark_inner(alpha, known);
+  sort(known);
   mesh_.halo.update(T);
   own_.clear();
   for (const Index c : outer_) own_.push_back(T[c]);

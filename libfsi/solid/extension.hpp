@@ -13,9 +13,6 @@ namespace fsi::solid {
 /// Cells from this fraction of solid on know their own deformation.
 inline constexpr Real alpha_known = 0.5;
 
-/// Whether all face neighbours of c are known.
-bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh);
-
 /// Continues a tensor known inside the solid into the cells around it, and lets it relax to that
 /// continuation in the outermost cells of the solid, where the velocity gradient has a kink that
 /// the mesh does not resolve.
@@ -36,21 +33,24 @@ class Extension {
  public:
   explicit Extension(const Mesh& mesh);
 
-  /// Collective. known: the band of alpha >= alpha_known. T: owned and halo, before and after.
+  /// Collective. Sorts the cells of `known`, the band of alpha >= alpha_known, into inner and
+  /// outer ones.
+  void mark(const CellField<Real>& alpha, const Band& known);
+  /// Collective, after `mark` with the same alpha and known. T: owned and halo, before and after.
   /// u: owned. dt = 0 does not relax.
   void apply(CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known,
              const CellField<Vec3>& u, Real dt);
 
   /// Owned cells that the last call set, but for the last layer.
   std::span<const Index> inside() const { return std::span(set_).first(inside_); }
-  /// Whether cell c was an inner one, thin parts not counted, in the last call.
-  bool inner(Index c) const { return layer_of_[c] == inner_layer; }
+  /// Whether cell c is an inner one, thin parts not counted; owned and halo.
+  bool inner(Index c) const { return inner_[c] > 0; }
   /// Owned cells of the last layer.
   std::span<const Index> last_layer() const { return std::span(set_).subspan(inside_); }
 
  private:
   static constexpr Real inner_layer = 1, thin_layer = 1.5, outer_layer = 2;
-  void mark_inner(const CellField<Real>& alpha, const Band& known);
+  void sort(const Band& known);
   void list_ring(Real layer, const Band& known);
   void fill(CellField<SymTensor>& T, Real layer);
   void relax(CellField<SymTensor>& T, const CellField<Vec3>& u, const Vec3& u_s, Real dt) const;
@@ -58,6 +58,7 @@ class Extension {
 
   const Mesh& mesh_;
   std::vector<Real> h_;       // [n_owned] V / max |Sf|
+  CellField<Real> inner_;     // 1: inner
   CellField<Real> layer_of_;  // that set a cell's T; 0: not set
   std::vector<Index> set_, last_set_, outer_, layer_;
   std::vector<SymTensor> values_, own_;  // own_: of the cells in outer_, before

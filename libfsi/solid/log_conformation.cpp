@@ -43,7 +43,7 @@ void LogConformation::set_undeformed(const CellField<Real>& alpha) {
 
 void LogConformation::resume(const CellField<Real>& alpha) {
   const CellField<Vec3> rest(mesh_);
-  known_.rebuild(alpha, alpha_known);
+  mark(alpha);
   extension_.apply(psi, alpha, known_, rest, 0);
 }
 
@@ -55,11 +55,12 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 }
 
 void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   L_.clear();
   for (const Index c : known_.core())
-    L_.push_back(is_inner(c, alpha, mesh_)
+    L_.push_back(extension_.inner(c)
                      ? carrier.L[c]
-                     : one_sided_gradient(carrier.L[c], carrier.u, alpha, alpha_known, mesh_, c));
+                     : one_sided_gradient(carrier.L[c], carrier.u, known, mesh_, c));
 }
 
 Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,

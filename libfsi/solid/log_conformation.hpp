@@ -32,7 +32,10 @@ class LogConformation {
   void resume(const CellField<Real>& alpha);
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
-  void mark(const CellField<Real>& alpha) { known_.rebuild(alpha, alpha_known); }
+  void mark(const CellField<Real>& alpha) {
+    known_.rebuild(alpha, alpha_known);
+    extension_.mark(alpha, known_);
+  }
   /// Owned cells on which `transport` reads L.
   std::span<const Index> strained() const { return known_.cells(); }
 

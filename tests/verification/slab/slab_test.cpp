@@ -127,7 +127,8 @@ Errors errors(const Setup& setup, Index n, int steps_a_period) {
 
 /// Errors with n and m cells across, printed with their order.
 std::array<Errors, 2> converge(const Setup& setup, Index n, Index m) {
-  const std::array<Errors, 2> e{errors(setup, n, 1000), errors(setup, m, 2000)};
+  const int steps = setup.triangles ? 2000 : 1000;
+  const std::array<Errors, 2> e{errors(setup, n, steps), errors(setup, m, 2 * steps)};
   const Real finer = std::log(static_cast<Real>(m) / static_cast<Real>(n));
   const Layers& l = setup.layers;
   std::printf(
