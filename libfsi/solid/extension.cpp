@@ -129,12 +129,6 @@ void Extension::apply(CellField<SymTensor>& T, const CellField<Real>& alpha, con
   for (const Index c : outer_) own_.push_back(T[c]);
   layer_ = outer_;
   fill(T, outer_layer);
-  if (dt > 0) {
-    relax(T, u, mean(u, alpha, known), dt);
-  } else {
-    for (std::size_t i = 0; i < outer_.size(); ++i) T[outer_[i]] = own_[i];
-  }
-  mesh_.halo.update(T);
   constexpr int rings = 3;
   for (int ring = 1; ring <= rings; ++ring) {
     list_ring(outer_layer + ring, known);
@@ -144,6 +138,11 @@ void Extension::apply(CellField<SymTensor>& T, const CellField<Real>& alpha, con
   }
   for (const Index c : last_set_)
     if (layer_of_[c] == 0) T[c] = {};
+  if (dt > 0) {
+    relax(T, u, mean(u, alpha, known), dt);
+  } else {
+    for (std::size_t i = 0; i < outer_.size(); ++i) T[outer_[i]] = own_[i];
+  }
   mesh_.halo.update(T);
 }
 

@@ -141,9 +141,6 @@ void Solver::transport_elastic() {
 void Solver::mix_viscosity() {
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
-  if (!body_->extended()) return;
-  for (const Index f : body_->band.faces())
-    mu_[f] = physics_.mu_f + body_->alpha_f[f] * (physics_.mu_s - physics_.mu_f);
 }
 
 void Solver::stiffen(Real dt) {

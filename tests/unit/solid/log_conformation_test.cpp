@@ -8,6 +8,7 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/log_conformation.hpp"
+#include "libfsi/solid/one_sided.hpp"
 #include "tests/unit/solid/full.hpp"
 
 namespace fsi {
@@ -226,6 +227,30 @@ TEST(Extension, CarriesAUniformTensorOutward) {
     }
     for (Index c = 0; c < run.mesh.n_cells; ++c)
       EXPECT_LE(largest(run.kinematics.psi[c] - ring[c] * psi), 1e-15);
+  }
+}
+
+// A velocity with a kink at x = 0.5, linear on either side: the gradient of the known side, beside
+// the kink as well; of cells that no known neighbour surrounds, what is given in its place.
+TEST(OneSided, GradientOfTheKnownSide) {
+  const Tensor solid{1, 2, 0, 0.5, -1, 0, 0, 0, 0}, given{9, 9, 9, 9, 9, 9, 9, 9, 9};
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {8, 8, 0}, .simplex = simplex});
+    CellField<Vec3> u(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) {
+      const Vec3 x = mesh.C[c] - Vec3{0.5, 0.5, 0};
+      u[c] = dot(solid, x) + (x.x > 0 ? 7 * x.x : 0) * Vec3{1, 3, 0};
+    }
+    const auto known = [&](Index c) { return mesh.C[c].x < 0.5; };
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (!known(c)) continue;
+      const Tensor L = solid::one_sided_gradient(given, u, known, mesh, c);
+      EXPECT_LE(std::abs(L.xx - 1) + std::abs(L.xy - 2), 1e-12);
+      EXPECT_LE(std::abs(L.yx - 0.5) + std::abs(L.yy + 1), 1e-12);
+      EXPECT_EQ(L.xz, 9);  // nothing spreads along z
+    }
+    const auto none = [](Index) { return false; };
+    EXPECT_EQ(solid::one_sided_gradient(given, u, none, mesh, 0).xx, 9);
   }
 }
 

@@ -1,0 +1,94 @@
+// The part of solid between the centres of a face's cells.
+
+#include "libfsi/vof/face_fraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi::vof {
+namespace {
+
+/// The half space n . (x - x_0) < 0 with its plane in every cell.
+struct HalfSpace {
+  HalfSpace(const test::BoxFile& box, const Vec3& normal, const Vec3& at)
+      : mesh(test::read_box(box)),
+        weights(mesh),
+        alpha(mesh),
+        interface(mesh),
+        alpha_f(mesh),
+        n(normal / norm(normal)),
+        x_0(at) {
+    for (Index c = 0; c < mesh.n_cells; ++c) {
+      const Real away = dot(n, mesh.C[c] - x_0);
+      interface.piece[c] = {n, mesh.C[c] - away * n, 1};
+      alpha[c] = away < 0 ? 1 : 0;
+    }
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.n_faces; ++f) faces.push_back(f);
+    face_fraction(alpha_f, alpha, interface, weights, mesh, faces);
+  }
+  bool inside(const Vec3& x) const { return dot(n, x - x_0) < 0; }
+
+  Mesh mesh;
+  FaceWeights weights;
+  CellField<Real> alpha;
+  Interface interface;
+  FaceField<Real> alpha_f;
+  Vec3 n, x_0;
+};
+
+// A plane across the faces' d, at 0.3 of the way between two rows of centres.
+TEST(FaceFraction, PlaneBetweenTwoCentres) {
+  HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, (3.5 + 0.3) / 8, 0});
+  for (Index f = 0; f < s.mesh.n_internal; ++f) {
+    const Real y = s.mesh.Cf[f].y * 8;  // 4 between the centres; 3.5 and 4.5 in their rows
+    const bool upward = std::abs(s.mesh.Sf[f].y) > 0;
+    const Real row = upward ? std::abs(y - 4) < 0.1 ? 0.3
+                              : y < 4               ? 1
+                                                    : 0
+                            : std::clamp(3.8 - (y - 0.5), 0.0, 1.0);
+    EXPECT_NEAR(s.alpha_f[f], row, 1e-13);
+  }
+}
+
+// Any plane, against samples of the prism that the face sweeps.
+TEST(FaceFraction, ObliquePlane) {
+  const auto moved = [](const Vec3& x) {
+    return Vec3{x.x + 0.03 * std::sin(6 * x.y), x.y + 0.03 * std::cos(5 * x.x), x.z};
+  };
+  for (const bool simplex : {false, true}) {
+    HalfSpace s({.n = {8, 8, 0}, .simplex = simplex, .moved = moved}, {1, 0.6, 0}, {0.5, 0.5, 0});
+    constexpr int samples = 100;
+    for (Index f = 0; f < s.mesh.n_internal; ++f) {
+      const Index P = s.mesh.owner[f];
+      const Vec3 a = s.mesh.corner(f, 0, P), b = s.mesh.corner(f, 1, P);
+      int count = 0;
+      for (int i = 0; i < samples; ++i)
+        for (int j = 0; j < samples; ++j) {
+          const Real t = (i + 0.5) / samples, r = (j + 0.5) / samples - s.weights.lambda[f];
+          if (s.inside(a + t * (b - a) + r * s.mesh.d[f])) ++count;
+        }
+      EXPECT_NEAR(s.alpha_f[f], static_cast<Real>(count) / (samples * samples), 0.01);
+    }
+  }
+}
+
+// Without a plane the interface lies on the face.
+TEST(FaceFraction, WithoutPlanes) {
+  HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, 0.5, 0});
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.interface.piece[c] = {};
+  std::vector<Index> faces(static_cast<std::size_t>(s.mesh.n_faces));
+  for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = static_cast<Index>(f);
+  face_fraction(s.alpha_f, s.alpha, s.interface, s.weights, s.mesh, faces);
+  for (Index f = 0; f < s.mesh.n_faces; ++f) {
+    const Real y = s.mesh.Cf[f].y;
+    EXPECT_EQ(s.alpha_f[f], std::abs(y - 0.5) < 1e-9 ? 0.5 : y < 0.5 ? 1 : 0);
+  }
+}
+
+}  // namespace
+}  // namespace fsi::vof
