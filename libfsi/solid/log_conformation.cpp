@@ -42,9 +42,8 @@ void LogConformation::set_undeformed(const CellField<Real>& alpha) {
 }
 
 void LogConformation::resume(const CellField<Real>& alpha) {
-  const CellField<Vec3> rest(mesh_);
   mark(alpha);
-  extension_.apply(psi, alpha, known_, rest, 0);
+  extension_.apply(psi, known_);
 }
 
 SymTensor LogConformation::isochoric(SymTensor p) const {
@@ -56,18 +55,19 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 
 void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  const auto inner = [&](Index c) { return extension_.inner(c); };
   L_.clear();
   for (const Index c : known_.core())
     L_.push_back(extension_.inner(c)
                      ? carrier.L[c]
-                     : one_sided_gradient(carrier.L[c], carrier.u, known, mesh_, c));
+                     : one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c));
 }
 
 Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
                            CellField<SymGradient>& grad) {
   const FaceWeights& weights = carrier.weights;
   gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
-  for (const Index c : extension_.last_layer()) grad[c] = {};
+  for (const Index c : extension_.last_ring()) grad[c] = {};
   mesh_.halo.update(grad);
   Real fastest = 0;
   rate_.clear();
@@ -107,7 +107,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
   for (const Index c : extension_.inside()) grad[c] = {};
-  extension_.apply(psi, alpha, known_, carrier.u, dt);
+  extension_.apply(psi, known_);
   return fastest;
 }
 

@@ -131,7 +131,10 @@ void Solver::transport_elastic() {
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
-        if (!needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
+        if (!needs_L()) {
+          gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
+          mesh_.halo.update(L_);
+        }
         body_->strain_rate = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
