@@ -151,7 +151,7 @@ TEST(Recovery, GivesUpAtASpeedThatNoHalvingReaches) {
     const Mesh mesh = mesh_of(scene);
     Trial one(mesh, scene), other(mesh, scene);
     one.steps(4, 0.02), other.steps(4, 0.02);
-    expect_failure(one, 20, "the flow became too fast for the step");
+    expect_failure(one, 200, "the flow became too fast for the step");
     // It could go on from there as if nothing had been tried.
     one.steps(3, 0.02), other.steps(3, 0.02);
     EXPECT_TRUE(one.state() == other.state());
