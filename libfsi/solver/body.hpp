@@ -10,6 +10,7 @@
 #include "libfsi/solid/left_cauchy_green.hpp"
 #include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/neo_hookean.hpp"
+#include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/stiffness.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/fill.hpp"
@@ -18,16 +19,21 @@
 namespace fsi {
 
 /// How the deformation of the solid is tracked.
-using Kinematics = std::variant<solid::LeftCauchyGreen, solid::LogConformation>;
-enum class KinematicsKind { left_cauchy_green, log_conformation };
+using Kinematics =
+    std::variant<solid::LeftCauchyGreen, solid::LogConformation, solid::ReferenceMap>;
+enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map };
 
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
   /// Collective. Fills the undeformed shape.
   Body(const Mesh& mesh, const shapes::Shape& shape, Real G, KinematicsKind kind);
 
-  /// Collective. Gives the solid a deformation to start from; det B = 1.
+  /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
+  /// a reference map, which B alone does not tell.
   void set_B(const std::function<SymTensor(const Vec3&)>& B_0);
+  /// Collective. The same for a reference map: xi_0(x) is where the particle at x came from.
+  /// Errors: Error{input} with other kinematics.
+  void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Collective. Renews what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
