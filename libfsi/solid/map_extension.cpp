@@ -5,8 +5,6 @@
 namespace fsi::solid {
 namespace {
 
-constexpr Real known_layer = 1;
-
 /// X with X M = R for a symmetric positive M; where M does not tell a direction (fewer neighbours
 /// than unknowns) the slope along it tends to zero.
 Tensor slope_of(Tensor M, const Tensor& R, int dim) {
@@ -24,11 +22,11 @@ Tensor slope_of(Tensor M, const Tensor& R, int dim) {
 MapExtension::MapExtension(const Mesh& mesh)
     : mesh_(mesh), item_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {}
 
-Tensor MapExtension::known_slope(Index c) const {
+Tensor MapExtension::regression(Index c, Real up_to) const {
   Tensor M, R;
   for (Index i = mesh_.cell_neighbours.offset[c]; i < mesh_.cell_neighbours.offset[c + 1]; ++i) {
     const Index k = mesh_.cell_neighbours.index[i];
-    if (item_[k].layer != known_layer) continue;
+    if (item_[k].layer == 0 || item_[k].layer > up_to) continue;
     const Vec3 r = mesh_.C[k] + mesh_.translation[mesh_.cell_neighbour_shift[i]] - mesh_.C[c];
     const Real w = 1 / norm2(r);
     M += w * outer(r, r);
@@ -80,13 +78,12 @@ void MapExtension::apply(CellField<Vec3>& d, CellField<Real>& is_set, const Band
   set_.assign(known.core().begin(), known.core().end());
   for (const Index c : set_) item_[c] = {d[c], {}, known_layer};
   mesh_.halo.update(item_);
-  for (const Index c : set_) item_[c].g = known_slope(c);
+  for (const Index c : set_) item_[c].g = regression(c, known_layer);
   mesh_.halo.update(item_);
-  constexpr int rings = 3;
-  for (int ring = 1; ring <= rings; ++ring) {
-    list_ring(known_layer + ring, known);
+  for (Real layer = known_layer + 1; layer <= last_layer; ++layer) {
+    list_ring(layer, known);
     fitted_.clear();
-    for (const Index c : ring_) fitted_.push_back(fit(c, known_layer + ring));
+    for (const Index c : ring_) fitted_.push_back(fit(c, layer));
     for (std::size_t i = 0; i < ring_.size(); ++i) item_[ring_[i]] = fitted_[i];
     mesh_.halo.update(item_);
     inside_ = set_.size();

@@ -32,6 +32,8 @@ class MapExtension {
   std::span<const Index> last_ring() const { return std::span(set_).subspan(inside_); }
   /// Gradient g of the fit in a cell that the last call set.
   const Tensor& slope(Index c) const { return item_[c].g; }
+  /// Gradient by the regression of known cells over all vertex neighbours that are set.
+  Tensor regression(Index c) const { return regression(c, last_layer); }
 
  private:
   struct Item {  ///< the value, its gradient, and the layer that set it; 0: not set
@@ -39,7 +41,8 @@ class MapExtension {
     Tensor g;
     Real layer = 0;
   };
-  Tensor known_slope(Index c) const;
+  static constexpr Real known_layer = 1, last_layer = 4;
+  Tensor regression(Index c, Real up_to) const;
   Item fit(Index c, Real layer) const;
   void list_ring(Real layer, const Band& known);
 

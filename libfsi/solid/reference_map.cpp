@@ -54,38 +54,50 @@ Tensor ReferenceMap::gradient_of_map(Index c) const {
   return g;
 }
 
+Tensor ReferenceMap::gradient(Index c) const {
+  Tensor sum;
+  if (static_cast<int>(mesh_.cell_faces[c].size()) <= mesh_.dim + 1)
+    return extension_.regression(c);
+  for (const Index f : mesh_.cell_faces[c]) {
+    if (f >= mesh_.n_internal) return extension_.regression(c);
+    const bool owner = mesh_.owner[f] == c;
+    const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
+    sum += outer(d[n] - d[c], owner ? stencil_.owner[f] : stencil_.neighbour[f]);
+  }
+  return sum;
+}
+
 void ReferenceMap::extend() {
   for (const Index c : extension_.inside()) slope_[c] = {};
   for (const Index c : extension_.last_ring()) slope_[c] = {};
   extension_.apply(d, is_set, known_);
-  for (const Index c : extension_.inside()) {
-    Tensor sum;
-    for (const Index f : mesh_.cell_faces[c]) {
-      if (f >= mesh_.n_internal) continue;
-      const bool owner = mesh_.owner[f] == c;
-      const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
-      sum += outer(d[n] - d[c], owner ? stencil_.owner[f] : stencil_.neighbour[f]);
-    }
-    slope_[c] = sum;
-  }
+  for (const Index c : extension_.inside()) slope_[c] = gradient(c);
   for (const Index c : extension_.last_ring()) slope_[c] = extension_.slope(c);
   mesh_.halo.update(slope_);
 }
 
 Vec3 ReferenceMap::face_value(Index f, Index c, const Carrier& carrier, Real dt) const {
   // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
-  //   d_f = d_up + limited + grad d . skew - dt / 2 (u + grad d . u)_up
+  //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
+  // with u_f linear between the cells and along the skewness, at boundaries from the cell.
+  const auto back = [&](Index up, const Vec3& u) { return (dt / 2) * (u + dot(slope_[up], u)); };
+  if (f >= mesh_.n_internal) {
+    const Vec3 r = mesh_.Cf[f] - mesh_.C[c];
+    return d[c] + dot(slope_[c], r) - back(c, carrier.u[c] + dot(carrier.L[c], r));
+  }
   const FaceWeights& weights = carrier.weights;
-  if (f >= mesh_.n_internal) return d[c] + dot(slope_[c], mesh_.Cf[f] - mesh_.C[c]);
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const bool forward = carrier.phi[f] >= 0;
   const Index up = forward ? P : N, down = forward ? N : P;
   const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
-  const Vec3 u = carrier.u[up];
   Vec3 face = d[up] + (2 * share) * koren(d[down] - d[up], dot(slope_[up], way));
-  if (weights.skewed) face += dot(slope_[up], weights.skew[f]);
-  return face - (dt / 2) * (u + dot(slope_[up], u));
+  Vec3 u = (1 - share) * carrier.u[up] + share * carrier.u[down];
+  if (weights.skewed) {
+    face += dot(slope_[up], weights.skew[f]);
+    u += dot(carrier.L[c], weights.skew[f]);
+  }
+  return face - back(up, u);
 }
 
 Real ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
@@ -93,14 +105,20 @@ Real ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& ca
   new_.clear();
   Real fastest = 0;
   for (const Index c : known_.core()) {
-    // -(1/V) sum_f phi_f (xi_f - xi_c),  xi = x + d
-    Vec3 sum;
+    // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
+    // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
+    // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
+    // the step.
+    Vec3 sum, off;
     for (const Index f : mesh_.cell_faces[c]) {
       const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
       const Real phi = outward ? carrier.phi[f] : -carrier.phi[f];
-      const Vec3 xi = mesh_.face_centre(f, c) - mesh_.C[c] + face_value(f, c, carrier, dt);
-      sum += phi * (xi - d[c]);
+      const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
+      const Real linear = dot(dot(carrier.L[c], r), mesh_.Sf[f]);
+      sum += phi * (r + face_value(f, c, carrier, dt) - d[c]);
+      off += (outward ? linear : -linear) * r;
     }
+    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(carrier.L[c], off));
     new_.push_back(d[c] - (dt / mesh_.V[c]) * sum);
     fastest = std::max(fastest, largest_rate(carrier.L[c]));
   }

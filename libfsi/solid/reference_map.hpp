@@ -1,15 +1,16 @@
 #pragma once
 // Kinematics of the solid: transport of the reference map, where each particle once was.
 
-#include <functional>
 #include <span>
+#include <vector>
 
 #include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/map_extension.hpp"
 
 namespace fsi::solid {
 
-/// The map xi(x, t) tells from where the particle at x came:            [Kamrin12] (2.5), (2.6)
+/// The map xi(x, t) tells from where the particle at x came:            [Kamrin12]
 ///   d xi/dt + u . grad xi = 0,   F = (grad xi)^-1,   B = F F^T
 /// Stored is d = xi - x, which goes on through a period of the mesh. Works on the cells that the
 /// solid fills by alpha_known or more; the cells around get d by MapExtension. One step over dt
@@ -21,8 +22,6 @@ class ReferenceMap {
  public:
   explicit ReferenceMap(const Mesh& mesh);
 
-  /// Cells from this fraction of solid on carry their own xi.
-  static constexpr Real alpha_known = 0.3;
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
   /// Where in a step the solid stands when the momentum equation is solved.
@@ -65,6 +64,7 @@ class ReferenceMap {
   Tensor gradient_of_map(Index c) const;
   /// The upwind value of d at face f half a step back along the particle's path.
   Vec3 face_value(Index f, Index c, const Carrier& carrier, Real dt) const;
+  Tensor gradient(Index c) const;
   void extend();
   bool folded() const;
 
