@@ -46,6 +46,10 @@ struct Body {
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);
   }
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  Real elastic_number() const {
+    return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
+  }
   /// B of a cell.
   SymTensor B(Index c) const {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);

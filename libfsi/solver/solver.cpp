@@ -233,7 +233,7 @@ Real Solver::elastic_time() const {
 
 Real Solver::elastic_dt() const {
   if (!body_) return std::numeric_limits<Real>::max();
-  return (body_->semi_implicit() ? 4 : 0.8) * elastic_time();
+  return body_->elastic_number() * elastic_time();
 }
 
 Real Solver::strain_dt(Real strain) const {
