@@ -88,6 +88,7 @@ void Solver::step(Real dt) {
                                                         //            [Matsumiya25] (5)
     transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
+                          // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
     stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
