@@ -23,6 +23,10 @@ Real Every::next(Real t) const {
                         : static_cast<Real>(index(t) + 1) * interval_;
 }
 
+bool Every::at(Real t) const {
+  return interval_ > 0 && std::abs(t / interval_ - std::round(t / interval_)) <= tolerance;
+}
+
 void Every::resume(Real t) {
   if (interval_ > 0) done_ = index(t);
 }

@@ -27,6 +27,8 @@ class Every {
   bool due(Real t);
   /// Time of the next event after t.
   Real next(Real t) const;
+  /// Whether t is a multiple.
+  bool at(Real t) const;
   /// For a restart at t: what lies before is done.
   void resume(Real t);
 

@@ -32,10 +32,17 @@ void rotate(Matrix& a, Matrix& v, int p, int q) {
 Eigen eigen(const SymTensor& t) {
   Matrix a = {{t.xx, t.xy, t.xz}, {t.xy, t.yy, t.yz}, {t.xz, t.yz, t.zz}};
   Matrix v = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Real scale = std::sqrt(t.xx * t.xx + t.yy * t.yy + t.zz * t.zz +
-                               2 * (t.xy * t.xy + t.xz * t.xz + t.yz * t.yz));
-  const Real small = scale * std::numeric_limits<Real>::epsilon() / 8;
-  // Convergence is quadratic: five sweeps do for any finite tensor; the bound stops NaN.
+  // A norm without squares, which would leave the range of numbers long before t does.
+  const Real scale = std::abs(t.xx) + std::abs(t.yy) + std::abs(t.zz) + std::abs(t.xy) +
+                     std::abs(t.xz) + std::abs(t.yz);
+  Eigen result;
+  if (!(scale <= std::numeric_limits<Real>::max())) {
+    result.value.fill(std::numeric_limits<Real>::quiet_NaN());
+    result.vector = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return result;
+  }
+  const Real small = scale * std::numeric_limits<Real>::epsilon() / 16;
+  // Convergence is quadratic: five sweeps do for any tensor.
   constexpr int max_sweeps = 12;
   for (int sweep = 0, turned = 1; turned != 0 && sweep < max_sweeps; ++sweep) {
     turned = 0;
@@ -48,7 +55,6 @@ Eigen eigen(const SymTensor& t) {
     if (a[j][j] < a[i][i]) std::swap(i, j);
   };
   order_pair(order[0], order[1]), order_pair(order[1], order[2]), order_pair(order[0], order[1]);
-  Eigen result;
   for (std::size_t i = 0; i < 3; ++i) {
     const int k = order[i];
     result.value[i] = a[k][k];

@@ -15,8 +15,9 @@ struct Eigen {
 };
 
 /// Cyclic Jacobi rotations [GolubVanLoan13] 8.5: residual and orthogonality to a few units of
-/// round-off of |t|, for repeated and nearly equal eigenvalues too. A tensor that is already
-/// diagonal costs only the ordering; a non-finite one gives non-finite values.
+/// round-off of |t|, for repeated and nearly equal eigenvalues and for |t| from 1e-290 to 1e290
+/// too. A tensor that is already diagonal costs only the ordering; a non-finite one gives values
+/// NaN.
 Eigen eigen(const SymTensor& t);
 
 }  // namespace fsi

@@ -1,5 +1,5 @@
 #pragma once
-// Errors: exceptions inside the library, codes at its rim. fsi::run (core/run.hpp) holds the only
+// Errors: exceptions inside the library, codes at its rim. fsi::run (core/run.hpp) holds the last
 // catch and turns a kind into the exit code of the program.
 
 #include <petscsys.h>

@@ -318,6 +318,13 @@ void Options::check_unused() const {
                             "to this run");
 }
 
+std::map<std::string, std::string> Options::values() const {
+  std::map<std::string, std::string> values;
+  for (const Entry& entry : entries_)
+    if (!entry.value.empty()) values[entry.name] = entry.value;
+  return values;
+}
+
 std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
   for (const Entry& entry : entries_)

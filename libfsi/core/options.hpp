@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ class Options {
   /// Call before the first step for names nobody can read, and after it for solver options.
   void check_unknown() const;
   void check_unused() const;
+  /// Names and values of the options read, as resolved; without those that are empty.
+  std::map<std::string, std::string> values() const;
   /// Every option as resolved, as YAML that repeats the run.
   std::string yaml() const;
 

@@ -35,10 +35,9 @@ void Band::rebuild(const CellField<Real>& q, Real threshold) {
   };
   for (Index c = 0; c < mesh_.n_owned; ++c)
     if (q[c] >= threshold) core_.push_back(c);
-  for (const Index c : core_) {
-    list(c);
+  for (const Index c : core_) list(c);
+  for (const Index c : core_)
     for (const Index n : mesh_.cell_neighbours[c]) list(n);
-  }
   for (Index c = mesh_.n_owned; c < mesh_.n_cells; ++c)
     if (q[c] >= threshold)
       for (const Index n : halo_neighbours_[c - mesh_.n_owned]) list(n);

@@ -21,7 +21,7 @@ class Band {
   const std::vector<Index>& core() const { return core_; }
   /// Those of the call before.
   const std::vector<Index>& last_core() const { return last_core_; }
-  /// Owned cells of the set and around it.
+  /// Owned cells of the set, in the order of core(), then those around it.
   const std::vector<Index>& cells() const { return cells_; }
   /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
   const std::vector<Index>& faces() const { return faces_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "libfsi/core/parallel.hpp"
+
 namespace fsi::flow {
 
 void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
@@ -38,7 +40,6 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
                      const FaceWeights& weights, const Mesh& mesh) {
-  visc.fill({});
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Vec3 flux = mu[f] * weights.g[f] * (u[N] - u[P]);
@@ -83,11 +84,10 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       history_(mesh),
       now_(mesh),
       rhs_(mesh),
-      w_(mesh),
-      b_(static_cast<std::size_t>(mesh.n_owned)),
-      matrix_(mesh) {
+      w_(static_cast<std::size_t>(mesh.n_cells * mesh.dim)),
+      b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
+      system_(mesh, "u", 1e-6) {
   implicit_.assign(open_face_.size(), Vec3{1, 1, 1});
-  bool slip = false;
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
@@ -96,32 +96,49 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  for (const Condition& condition : conditions)
-    slip = slip || std::holds_alternative<Slip>(condition);
-  for (int i = 0; i < (slip ? mesh.dim : 1); ++i)
-    systems_.emplace_back(mesh, "u", Method::jacobi, false, 1e-8);
-  diagonal_.resize(systems_.size());
+  if (!weights.non_orthogonal) return;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += weights.g[f];
+    spread_ = std::max(spread_, sum / mesh.V[c]);
+  }
+  spread_ = global_max(spread_);
+}
+
+// In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit
+// rest. With Adams-Bashforth the step z,
+//   (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2,
+// leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
+// theta = 1 it stays inside for |r| < 1.
+Real Momentum::theta_at(Real dt) const {
+  return spread_ > 0 ? std::max(theta, 1 - rho_ / (mu_0_ * spread_ * dt)) : theta;
+}
+
+Real Momentum::extrapolated(Real dt) const {
+  return spread_ > 0 ? std::min(Real{1}, 2 * rho_ / (mu_0_ * spread_ * dt)) : 1;
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
                         Real dt) {
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
-    for (Index c = 0; c < mesh_.n_owned; ++c) matrix_.diagonal[c] = rho_ * mesh_.V[c] / dt;
-    for (Index f = 0; f < mesh_.n_faces; ++f) {
-      Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
-      const Index P = mesh_.owner[f];
-      if (f < mesh_.n_internal) {
-        matrix_.off_diagonal[f] = -a;
-        const Index N = mesh_.neighbour[f];
-        if (N < mesh_.n_owned) matrix_.diagonal[N] += a;
-      } else {
-        a *= implicit_[f - mesh_.n_internal][static_cast<int>(i)];
-      }
-      if (P < mesh_.n_owned) matrix_.diagonal[P] += a;
+  const Index dim = mesh_.dim;
+  VectorMatrix& A = system_.matrix();
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] = rho_ * mesh_.V[c] / dt;
+  const auto add = [&](Index c, const Vec3& a) {
+    if (c >= mesh_.n_owned) return;
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
+  };
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
+    if (f >= mesh_.n_internal) {
+      add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
+      continue;
     }
-    systems_[i].assemble(matrix_);
-    diagonal_[i] = matrix_.diagonal;
+    A.off_diagonal[f] = -a;
+    add(mesh_.owner[f], {a, a, a});
+    add(mesh_.neighbour[f], {a, a, a});
   }
+  system_.renewed();
   assembled_ = {theta_now, dt};
 }
 
@@ -146,28 +163,33 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
                       bool stiff, const Sources& sources, Real dt) {
   constexpr int damped_steps = 2;
-  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta;
+  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta_at(dt);
   if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
     assemble(mu, kappa, theta_now, dt);
 
   convection(now_, phi, u, u_b, L, weights_, mesh_);
-  for (Index c = 0; c < mesh_.n_owned; ++c) now_[c] *= -rho_;
+  rhs_.fill({});
   if (weights_.non_orthogonal || mu_varies)
-    viscous_rest(now_, mu, mu_0_, L, open_face_, weights_, mesh_);
+    viscous_rest(rhs_, mu, mu_0_, L, open_face_, weights_, mesh_);
+  const Real share = extrapolated(dt);
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    now_[c] = share * rhs_[c] - rho_ * now_[c];
+    rhs_[c] *= 1 - share;
+  }
   viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
   set_rhs(u_b, u_b_new, grad_p, mu, sources, theta_now, dt);
 
-  int iterations = 0;
-  for (int i = 0; i < mesh_.dim; ++i) {
-    const std::size_t system = systems_.size() > 1 ? static_cast<std::size_t>(i) : 0;
-    for (Index c = 0; c < mesh_.n_owned; ++c) {
-      b_[c] = rhs_[c][i];
-      w_[c] = b_[c] / diagonal_[system][c];
+  const Index dim = mesh_.dim;
+  const std::vector<Real>& diagonal = system_.matrix().diagonal;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = c * dim; i < (c + 1) * dim; ++i) {
+      b_[i] = rhs_[c][static_cast<int>(i - c * dim)];
+      w_[i] = b_[i] / diagonal[i];
     }
-    iterations += systems_[system].solve(w_, b_).iterations;
-    for (Index c = 0; c < mesh_.n_cells; ++c) u[c][i] += w_[c];
-  }
-  history_.swap(now_);
+  const int iterations = system_.solve(w_, b_).iterations;
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    for (Index i = 0; i < dim; ++i) u[c][static_cast<int>(i)] += w_[c * dim + i];
+  history_.assign(now_);  // in place: checkpoints and backups know its address
   dt_old = dt;
   ++steps_taken;
   return iterations;

@@ -8,7 +8,7 @@
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
-#include "libfsi/operators/linear_system.hpp"
+#include "libfsi/operators/linear_system_vector.hpp"
 
 namespace fsi::flow {
 
@@ -22,7 +22,7 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
                 const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
                 const FaceWeights& weights, const Mesh& mesh);
 
-/// visc_c = sum_f mu_f g_f (u_N - u_P): the compact part of div(mu grad u) over owned cells.
+/// visc_c += sum_f mu_f g_f (u_N - u_P): the compact part of div(mu grad u) over owned cells.
 /// Faces of openings carry no viscous flux.
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
@@ -55,7 +55,7 @@ class Momentum {
 
   /// u becomes u* (owned and halo). u_b holds the boundary velocity of t^n, u_b_new that of t^n+1.
   /// mu_varies: in time and space; stiff: kappa does; without, it is zero for good.
-  /// Returns iterations of all components. Errors: Error{numerics}.
+  /// Returns the iterations. Errors: Error{numerics}.
   int predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
               const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
               const CellField<Tensor>& L, const FaceField<Real>& phi, const FaceField<Real>& mu,
@@ -67,28 +67,31 @@ class Momentum {
   const CellField<Vec3>& history() const { return history_; }
   Real dt_old = 0;
   std::int64_t steps_taken = 0;
-  Real theta = 0.5;  ///< after the first steps
+  Real theta = 0.5;  ///< after the first steps, at least
+  /// The theta of a step of dt: more than `theta` on non-orthogonal meshes where viscosity smooths
+  /// a cell within the step, since the explicit rest would make it unstable. From 1/2 where
+  /// l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
+  Real theta_at(Real dt) const;
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 
  private:
   void assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now, Real dt);
+  /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
+  Real extrapolated(Real dt) const;
   void set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
                const CellField<Vec3>& grad_p, const FaceField<Real>& mu, const Sources& sources,
                Real theta_now, Real dt);
   const Mesh& mesh_;
   const FaceWeights& weights_;
   Real rho_, mu_0_;
+  Real spread_ = 0;  // largest sum over a cell's faces of g / V; 0 on orthogonal meshes
   std::vector<char> open_face_;
   std::vector<Vec3>
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   CellField<Vec3> history_, now_, rhs_;
-  CellField<Real> w_;
-  std::vector<Real> b_;
-  FaceMatrix matrix_;
-  std::vector<std::vector<Real>> diagonal_;  // one a system
-  std::vector<LinearSystem>
-      systems_;  // one, or one a component where a slip plane tells them apart
+  std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]
+  VectorSystem system_;
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place
 };
 

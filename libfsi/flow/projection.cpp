@@ -87,7 +87,7 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
     }
     if (P < mesh.n_owned) matrix.diagonal[P] += weights.g[f];
   }
-  system_.assemble_constant(matrix);
+  system_.assemble(matrix);
 }
 
 void Projection::balance_boundary(FaceField<Real>& phi) const {

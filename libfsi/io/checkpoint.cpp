@@ -176,7 +176,7 @@ bool Checkpoint::write(const Snapshot& snapshot) {
   reason = broadcast(reason);
   if (!reason.empty()) {
     warn("checkpoint \"" + path(next_) + "\" could not be written: " + reason +
-         "; the run goes on and tries again at the next one");
+         "; what was there before stays");
     return false;
   }
   file_ = path(next_++);

@@ -15,7 +15,7 @@ namespace fsi::io {
 class Hdf5File;
 
 /// What a checkpoint holds, by name, as references to where it lives: the same list serves to write
-/// and to read.
+/// and to read. It holds as long as the fields keep their storage: a Field listed is never swapped.
 class Snapshot {
  public:
   using Scalar = std::variant<Real*, std::int64_t*, std::string*>;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 
 #include "libfsi/core/error.hpp"
@@ -30,6 +31,7 @@ Table::Table(const std::string& file, std::vector<std::string> columns, Real res
     if (found == head) {
       reason = replace_file(file, {std::as_bytes(std::span(kept))}, Durable::no);
       stream_.open(file, std::ios::app);
+      whole_ = kept.size();
       if (reason.empty() && !stream_) reason = "it cannot be opened";
     }
   }
@@ -54,7 +56,14 @@ void Table::row(std::span<const Real> values) {
   if (!culprit.empty())
     throw Error(Kind::numerics, "column \"" + culprit + "\" of \"" + file_ + "\" is not finite");
   if (rank() == 0) stream_ << line << std::endl;
-  if (!all_of_ranks(rank() != 0 || stream_.good()))
+  const bool good = rank() != 0 || stream_.good();
+  if (good) whole_ += line.size() + 1;
+  if (!good) {
+    std::error_code code;
+    stream_.close();  // it tries once more what it could not write
+    std::filesystem::resize_file(file_, whole_, code);
+  }
+  if (!all_of_ranks(good))
     throw Error(Kind::io, "file \"" + file_ + "\" could not be written: is the disk full?");
 }
 

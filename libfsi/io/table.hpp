@@ -1,6 +1,7 @@
 #pragma once
 // Time series as csv.
 
+#include <cstdint>
 #include <fstream>
 #include <span>
 #include <string>
@@ -21,13 +22,14 @@ class Table {
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 
   /// Collective; rank 0's values are written. Errors: Error{numerics} naming the column of a value
-  /// that is not finite; nothing is then written. Error{io}.
+  /// that is not finite; nothing is then written. Error{io}; the rows before it stay whole.
   void row(std::span<const Real> values);
 
  private:
   std::string file_;
   std::vector<std::string> columns_;
   std::ofstream stream_;
+  std::uintmax_t whole_ = 0;  // bytes of the header and the whole rows
 };
 
 }  // namespace fsi::io

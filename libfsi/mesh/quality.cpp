@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -60,6 +61,19 @@ Quality quality(const Mesh& mesh) {
   q.volume_min = global_min(mesh.n_owned > 0 ? *low : none);
   q.volume_max = global_max(mesh.n_owned > 0 ? *high : -none);
   return q;
+}
+
+Vec3 centre(const Mesh& mesh, const std::string& patch) {
+  const Patch& faces = mesh.patch(patch);
+  std::array<Sum, 4> sums;
+  for (Index f = faces.begin; f < faces.end; ++f) {
+    const Real area = norm(mesh.Sf[f]);
+    for (int i = 0; i < 3; ++i) sums[i].add(area * mesh.Cf[f][i]);
+    sums[3].add(area);
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  return Vec3{total[0], total[1], total[2]} / total[3];
 }
 
 }  // namespace fsi

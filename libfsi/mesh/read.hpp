@@ -29,4 +29,7 @@ struct Quality {
 };
 Quality quality(const Mesh& mesh);
 
+/// Collective. Centroid of a patch, weighted with area. Errors: Error{input} for an unknown name.
+Vec3 centre(const Mesh& mesh, const std::string& patch);
+
 }  // namespace fsi

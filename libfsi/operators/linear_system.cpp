@@ -37,6 +37,8 @@ struct LinearSystem::Handles {
 
 namespace {
 
+constexpr PetscReal no_absolute = 1e-300;  // that nobody would ask for
+
 /// Puts an option into the database unless the user did.
 void prefer(const std::string& prefix, const std::string& option, const char* value) {
   const std::string name = "-" + prefix + option;
@@ -97,9 +99,6 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       FSI_PETSC(PCSetType(pc, PCCHOLESKY));
       FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
       break;
-    case Method::jacobi:
-      FSI_PETSC(PCSetType(pc, PCJACOBI));
-      break;
   }
 }
 
@@ -137,7 +136,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(KSPSetOptionsPrefix(h.solver, (name + "_").c_str()));
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   set_defaults(name + "_", method, h.solver);
-  FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+  FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
   FSI_PETSC(KSPSetFromOptions(h.solver));
 }
 
@@ -154,11 +153,6 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
   for (std::size_t e = 0; e < h.face.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.face[e]];
   FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
-}
-
-void LinearSystem::assemble_constant(const FaceMatrix& matrix) {
-  assemble(matrix);
-  Handles& h = *handles_;
   Mat lean = nullptr;  // a copy leaves behind the map from entries to their places
   FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
   FSI_PETSC(MatDestroy(&h.matrix));
@@ -177,13 +171,14 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
     FSI_PETSC(MatGetNullSpace(h.matrix, &constant));
     FSI_PETSC(MatNullSpaceRemove(constant, h.b));
   }
-  PetscReal rtol = 0, divergence = 0;
+  PetscReal rtol = 0, given = 0, divergence = 0;
   PetscInt its = 0, most = 0;
-  FSI_PETSC(KSPGetTolerances(h.solver, &rtol, nullptr, &divergence, &most));
-  FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5), std::max(absolute, 1e-300),
-                             divergence, most));
+  FSI_PETSC(KSPGetTolerances(h.solver, &rtol, &given, &divergence, &most));
+  if (given != no_absolute) absolute = given;  // the user's word
+  FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5),
+                             std::max(absolute, no_absolute), divergence, most));
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
-  FSI_PETSC(KSPSetTolerances(h.solver, rtol, PETSC_DEFAULT, divergence, most));
+  FSI_PETSC(KSPSetTolerances(h.solver, rtol, given, divergence, most));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   Solve result;
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
@@ -193,9 +188,8 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics, "system \"" + h.name +
-                                    "\" did not converge: " + KSPConvergedReasons[reason] +
-                                    " after " + std::to_string(its) + " iterations");
+    throw Error(Kind::numerics,
+                "system \"" + h.name + "\" did not converge: " + KSPConvergedReasons[reason]);
   h.mesh.halo.update(x);
   return result;
 }

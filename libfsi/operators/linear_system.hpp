@@ -1,5 +1,5 @@
 #pragma once
-// A symmetric sparse system on the cells and its Krylov solver.
+// A constant symmetric sparse system on the cells and its solver.
 
 #include <memory>
 #include <span>
@@ -24,7 +24,6 @@ struct FaceMatrix {
 enum class Method {
   multigrid,  ///< conjugate gradients with BoomerAMG; for a constant matrix of Laplacian kind
   direct,     ///< Cholesky factors, kept; for a constant matrix of a small 2-D mesh
-  jacobi,     ///< conjugate gradients with the diagonal; for a matrix close to its diagonal
 };
 
 /// What a solve took.
@@ -43,10 +42,8 @@ class LinearSystem {
   LinearSystem(LinearSystem&&) noexcept;
   LinearSystem& operator=(LinearSystem&&) noexcept;
 
-  /// Collective. Sets the values; the preconditioner is renewed at the next solve.
+  /// Collective. Sets the values, once for all: what another assembly would need is freed.
   void assemble(const FaceMatrix& matrix);
-  /// Collective. The same, once for all: frees what another assembly would need.
-  void assemble_constant(const FaceMatrix& matrix);
   /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
   /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
   /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.

@@ -17,16 +17,21 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;
 }
 
-/// Gradient of T on the listed owned cells, with zero gradient at boundaries.
+/// Gradient of T on the listed owned cells. stencil: without given boundary values, so that linear
+/// fields are exact beside boundaries as well.
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
               const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+/// The same of alpha T.
+void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
+              const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
+              std::span<const Index> cells);
 
 /// The flow, frozen over a step of the solid.
 struct Carrier {
   const FaceField<Real>& phi;
   const CellField<Vec3>& u;
-  const CellField<Tensor>& L;  ///< velocity gradient
-  const GradientStencil& stencil;
+  const CellField<Tensor>& L;      ///< velocity gradient
+  const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
 };
 

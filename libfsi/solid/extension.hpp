@@ -33,35 +33,35 @@ class Extension {
  public:
   explicit Extension(const Mesh& mesh);
 
-  /// Collective. known: the band of alpha >= alpha_known. T: owned and halo, before and after.
+  /// Collective. Sorts the cells of `known`, the band of alpha >= alpha_known, into inner and
+  /// outer ones.
+  void mark(const CellField<Real>& alpha, const Band& known);
+  /// Collective, after `mark` with the same alpha and known. T: owned and halo, before and after.
   /// u: owned. dt = 0 does not relax.
   void apply(CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known,
              const CellField<Vec3>& u, Real dt);
 
   /// Owned cells that the last call set, but for the last layer.
   std::span<const Index> inside() const { return std::span(set_).first(inside_); }
-  /// Whether cell c was an inner one, thin parts not counted, in the last call.
-  bool inner(Index c) const { return item_[c].layer == inner_layer; }
+  /// Whether cell c is an inner one, thin parts not counted; owned and halo.
+  bool inner(Index c) const { return inner_[c] > 0; }
   /// Owned cells of the last layer.
   std::span<const Index> last_layer() const { return std::span(set_).subspan(inside_); }
 
  private:
   static constexpr Real inner_layer = 1, thin_layer = 1.5, outer_layer = 2;
-  struct Item {  ///< T_ext, and the number of the layer that set it; 0: not set
-    SymTensor T;
-    Real layer = 0;
-  };
-  void mark_inner(const CellField<SymTensor>& T, const CellField<Real>& alpha, const Band& known);
+  void sort(const Band& known);
   void list_ring(Real layer, const Band& known);
-  void fill(Real layer);
+  void fill(CellField<SymTensor>& T, Real layer);
   void relax(CellField<SymTensor>& T, const CellField<Vec3>& u, const Vec3& u_s, Real dt) const;
   Vec3 mean(const CellField<Vec3>& u, const CellField<Real>& alpha, const Band& known) const;
 
   const Mesh& mesh_;
-  std::vector<Real> h_;  // [n_owned] V / max |Sf|
-  CellField<Item> item_;
+  std::vector<Real> h_;       // [n_owned] V / max |Sf|
+  CellField<Real> inner_;     // 1: inner
+  CellField<Real> layer_of_;  // that set a cell's T; 0: not set
   std::vector<Index> set_, last_set_, outer_, layer_;
-  std::vector<SymTensor> values_;
+  std::vector<SymTensor> values_, own_;  // own_: of the cells in outer_, before
   std::size_t inside_ = 0;
   std::vector<std::int32_t> stamp_;
   std::int32_t calls_ = 0;

@@ -22,8 +22,7 @@ SymTensor stretch(const Tensor& L, const SymTensor& B) {
 
 }  // namespace
 
-LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh)
-    : Bt(mesh), mesh_(mesh), band_(mesh), old_(mesh), rate_(mesh) {}
+LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : Bt(mesh), mesh_(mesh), band_(mesh) {}
 
 void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
   for (Index c = 0; c < mesh_.n_cells; ++c)
@@ -34,6 +33,7 @@ void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
 void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
   gradient(grad, Bt, carrier.stencil, mesh_, band_.cells());
   mesh_.halo.update(grad);
+  rate_.clear();
   for (const Index c : band_.core()) {
     // -(1/V) sum_f phi_f (Bt_f - Bt_c), Bt_f = Bt_up + grad Bt_up . (x_f - x_up)
     SymTensor sum;
@@ -45,29 +45,33 @@ void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad)
       const SymTensor face = Bt[up] + along(grad[up], mesh_.face_centre(f, up) - mesh_.C[up]);
       sum += (mesh_.owner[f] == c ? phi : -phi) * (face - Bt[c]);
     }
-    rate_[c] = stretch(carrier.L[c], Bt[c]) - (1 / mesh_.V[c]) * sum;
+    rate_.push_back(stretch(carrier.L[c], Bt[c]) - (1 / mesh_.V[c]) * sum);
   }
 }
 
 Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                 CellField<SymGradient>& grad) {
-  for (const Index c : band_.core()) old_[c] = Bt[c];
+  const std::vector<Index>& core = band_.core();
+  old_.clear();
+  for (const Index c : core) old_.push_back(Bt[c]);
   rate(carrier, grad);
-  for (const Index c : band_.core()) Bt[c] += dt * rate_[c];
+  for (std::size_t i = 0; i < core.size(); ++i) Bt[core[i]] += dt * rate_[i];
   mesh_.halo.update(Bt);
   rate(carrier, grad);
-  for (const Index c : band_.core()) Bt[c] = 0.5 * (old_[c] + Bt[c] + dt * rate_[c]);
+  for (std::size_t i = 0; i < core.size(); ++i)
+    Bt[core[i]] = 0.5 * (old_[i] + Bt[core[i]] + dt * rate_[i]);
   for (const Index c : band_.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};
   mesh_.halo.update(Bt);
   return 0;
 }
 
-Real LeftCauchyGreen::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
                             const CellField<Real>& alpha, std::span<const Index> cells) const {
   for (const Index c : cells) {
-    aB[c] = std::sqrt(std::max(alpha[c], 0.0)) * Bt[c];
-    lambda[c] = eigen(aB[c]).value[2];
+    const bool strained = alpha[c] >= alpha_min;
+    B[c] = strained ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
+    lambda[c] = strained ? eigen(B[c]).value[2] : 0;
   }
   return 1;
 }

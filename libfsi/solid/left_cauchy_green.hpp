@@ -22,6 +22,8 @@ class LeftCauchyGreen {
   static constexpr Real ahead = 1;
   /// The longest step in units of the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 0.8;
+  /// Whether B is known around the solid as well.
+  static constexpr bool extended = false;
 
   /// Bt with B = I where alpha >= alpha_min. Halo set.
   void set_undeformed(const CellField<Real>& alpha);
@@ -44,9 +46,9 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
-  /// eigenvalue of B, which this kinematics does not watch: 1.
-  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
+  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the listed
+  /// cells. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
+  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;
@@ -58,7 +60,7 @@ class LeftCauchyGreen {
 
   const Mesh& mesh_;
   Band band_;
-  CellField<SymTensor> old_, rate_;
+  std::vector<SymTensor> old_, rate_;  // beside the core of the band
 };
 
 }  // namespace fsi::solid

@@ -5,6 +5,7 @@
 
 #include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
+#include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -26,7 +27,7 @@ void LogConformation::set_undeformed(const CellField<Real>& alpha) {
 
 void LogConformation::resume(const CellField<Real>& alpha) {
   const CellField<Vec3> rest(mesh_);
-  known_.rebuild(alpha, alpha_known);
+  mark(alpha);
   extension_.apply(psi, alpha, known_, rest, 0);
 }
 
@@ -37,6 +38,15 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
+void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  L_.clear();
+  for (const Index c : known_.core())
+    L_.push_back(extension_.inner(c)
+                     ? carrier.L[c]
+                     : one_sided_gradient(carrier.L[c], carrier.u, known, mesh_, c));
+}
+
 Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
                            CellField<SymGradient>& grad) {
   const FaceWeights& weights = carrier.weights;
@@ -45,7 +55,8 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
   mesh_.halo.update(grad);
   Real fastest = 0;
   rate_.clear();
-  for (const Index c : cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Index c = cells[i];
     // -(1/V) sum_f phi_f (psi_f - psi_c),
     // psi_f = psi_up + 2 w limited(psi_down - psi_up) + grad psi_up . skew, w the share of |d|
     SymTensor sum;
@@ -60,7 +71,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       if (weights.skewed) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
-    const SymTensor strain = log_rate(carrier.L[c], psi[c]);
+    const SymTensor strain = log_rate(i < L_.size() ? L_[i] : carrier.L[c], psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
     rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
@@ -72,6 +83,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   const std::vector<Index>&cells = known_.cells(), &core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
+  set_L(alpha, carrier);
   rate(cells, carrier, grad);
   for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
   mesh_.halo.update(psi);
@@ -83,14 +95,14 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   return fastest;
 }
 
-Real LogConformation::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
                             const CellField<Real>& alpha, std::span<const Index> cells) const {
   Real least = 0;
   for (const Index c : cells) {
     const Eigen e = eigen(psi[c]);
-    least = std::min(least, e.value[0]);
-    aB[c] = alpha[c] * exp(e);
-    lambda[c] = alpha[c] * std::exp(e.value[2]);
+    if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
+    B[c] = exp(e);
+    lambda[c] = std::exp(e.value[2]);
   }
   return std::exp(least);
 }

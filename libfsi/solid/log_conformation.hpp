@@ -12,9 +12,9 @@ namespace fsi::solid {
 
 /// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
 /// on the cells that the solid fills by half or more, with face values by Koren's limiter, Heun's
-/// method over dt with phi and L frozen, then det B = 1 and the extension into the cells around. B
-/// = exp(psi) is positive definite whatever happens. Second order in space; the solver makes it so
-/// in time by taking it half a step ahead of the flow.
+/// method over dt with phi and L frozen (one_sided.hpp), then det B = 1 and the extension into the
+/// cells around. B = exp(psi) is positive definite whatever happens. Second order in space; the
+/// solver makes it so in time by taking it half a step ahead of the flow.
 class LogConformation {
  public:
   explicit LogConformation(const Mesh& mesh);
@@ -25,6 +25,8 @@ class LogConformation {
   static constexpr Real ahead = 0.5;
   /// The longest step in units of the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 4;
+  /// Whether B is known around the solid as well.
+  static constexpr bool extended = true;
 
   /// psi = 0.
   void set_undeformed(const CellField<Real>& alpha);
@@ -32,7 +34,10 @@ class LogConformation {
   void resume(const CellField<Real>& alpha);
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
-  void mark(const CellField<Real>& alpha) { known_.rebuild(alpha, alpha_known); }
+  void mark(const CellField<Real>& alpha) {
+    known_.rebuild(alpha, alpha_known);
+    extension_.mark(alpha, known_);
+  }
   /// Owned cells on which `transport` reads L.
   std::span<const Index> strained() const { return known_.cells(); }
 
@@ -44,9 +49,9 @@ class LogConformation {
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
-  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
-  /// eigenvalue of B among them, at most 1.
-  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
+  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// eigenvalue of B among those with solid, at most 1.
+  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;
@@ -54,7 +59,10 @@ class LogConformation {
   CellField<SymTensor> psi;
 
  private:
-  /// Sets rate_ on the cells; returns the largest of log B following the solid.
+  /// Sets L_: the velocity gradient, in the solid's outermost cells that of its own side.
+  void set_L(const CellField<Real>& alpha, const Carrier& carrier);
+  /// Sets rate_ on the cells, which begin with known_.core(); returns the largest of log B
+  /// following the solid.
   Real rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
@@ -63,6 +71,7 @@ class LogConformation {
   Band known_;
   Extension extension_;
   std::vector<SymTensor> old_, rate_;  // beside the list of cells worked on
+  std::vector<Tensor> L_;              // beside known_.core()
 };
 
 }  // namespace fsi::solid

@@ -2,13 +2,11 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), tau_(mesh) {}
+NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G) {}
 
-void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
-                       const CellField<SymTensor>& aB, const FaceWeights& weights,
-                       const GradientStencil& stencil, const Band& band,
-                       CellField<SymGradient>& grad) {
-  for (const Index c : last_cells_) force[c] = {}, tau_[c] = {}, grad[c] = {};
+void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
+                       CellField<SymGradient>& grad, const Band& band) {
+  for (const Index c : last_cells_) force[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
@@ -17,33 +15,58 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   }
   last_cells_ = band.cells();
   last_faces_ = band.faces();
+}
 
-  for (const Index c : band.core()) tau_[c] = G_ * dev(aB[c]);
-  mesh_.halo.update(tau_);
-  gradient(grad, tau_, stencil, mesh_, band.cells());
+void NeoHookean::push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
+                      const Band& band, const CellField<SymGradient>& grad) const {
+  const CellField<SymTensor>& B = solid.B;
+  const CellField<Real>& alpha = solid.alpha;
+  for (const Index f : band.faces()) {
+    const Index P = mesh_.owner[f];
+    if (f >= mesh_.n_internal) continue;
+    const Index N = mesh_.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = B or alpha B
+    const bool sharp = solid.alpha_f != nullptr;
+    const Real a_P = sharp ? 1 : alpha[P], a_N = sharp ? 1 : alpha[N];
+    SymTensor T = (1 - lambda) * a_P * B[P] + lambda * a_N * B[N];
+    if (weights.skewed)
+      T +=
+          (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
+    const Vec3 t = dot((sharp ? (*solid.alpha_f)[f] : 1) * G_ * dev(T), mesh_.Sf[f]);
+    force[P] += (1 / mesh_.V[P]) * t;
+    force[N] -= (1 / mesh_.V[N]) * t;
+  }
+}
+
+void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                       CellField<SymGradient>& grad) {
+  const CellField<SymTensor>& B = solid.B;
+  const CellField<Real>& alpha = solid.alpha;
+  clear(force, balance, grad, band);
+  gradient(grad, alpha, B, stencil, mesh_, band.cells());
   mesh_.halo.update(grad);
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
+    const Vec3 d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
-      force[P] += (1 / mesh_.V[P]) * dot(tau_[P], mesh_.Sf[f]);
+      // tau_b = tau_P + grad tau . d
+      const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
+      force[P] += (1 / mesh_.V[P]) * dot(G_ * dev(aB_b), mesh_.Sf[f]);
       continue;
     }
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
-    const auto between = [lambda](const SymTensor& a, const SymTensor& b) {
-      return (1 - lambda) * a + lambda * b;
-    };
-    const SymGradient grad_f{between(grad[P].x, grad[N].x), between(grad[P].y, grad[N].y),
-                             between(grad[P].z, grad[N].z)};
-    // tau_f = (1 - lambda) tau_P + lambda tau_N + (grad tau)_f . skew
-    SymTensor tau_f = between(tau_[P], tau_[N]);
-    if (weights.skewed) tau_f += along(grad_f, weights.skew[f]);
-    const Vec3 t = dot(tau_f, mesh_.Sf[f]);
-    force[P] += (1 / mesh_.V[P]) * t;
-    force[N] -= (1 / mesh_.V[N]) * t;
-    const Vec3 d = mesh_.d[f], n = d / norm(d);
-    balance[f] = dot(n, dot(tau_[N] - tau_[P] - along(grad_f, d), n));
+    const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
+    balance[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
   }
+  if (weights.skewed && solid.alpha_f != nullptr) {
+    for (const Index c : band.cells()) grad[c] = {};  // of B, which is level around the solid
+    gradient(grad, B, stencil, mesh_, band.core());
+    mesh_.halo.update(grad);
+  }
+  push(force, solid, weights, band, grad);
   mesh_.halo.update(force);
 }
 

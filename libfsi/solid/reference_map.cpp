@@ -134,15 +134,14 @@ bool ReferenceMap::folded() const {
   return std::ranges::any_of(known_.core(), [&](Index c) { return !(volume_ratio(c) > 0); });
 }
 
-Real ReferenceMap::weigh(CellField<SymTensor>& aB, CellField<Real>& lambda,
+Real ReferenceMap::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
                          const CellField<Real>& alpha, std::span<const Index> cells) const {
   Real least = 1;
   for (const Index c : cells) {
-    const SymTensor b = B(c, alpha[c]);
-    const Eigen e = eigen(b);
-    least = std::min(least, e.value[0]);
-    aB[c] = alpha[c] * b;
-    lambda[c] = alpha[c] * e.value[2];
+    B[c] = this->B(c, alpha[c]);
+    const Eigen e = eigen(B[c]);
+    if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
+    lambda[c] = e.value[2];
   }
   return least;
 }

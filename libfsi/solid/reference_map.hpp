@@ -26,6 +26,8 @@ class ReferenceMap {
   static constexpr Real alpha_min = 1e-9;
   /// Where in a step the solid stands when the momentum equation is solved.
   static constexpr Real ahead = 0.5;
+  /// Whether B is known around the solid as well.
+  static constexpr bool extended = true;
   /// The longest step in units of the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 2;
 
@@ -50,11 +52,11 @@ class ReferenceMap {
   /// Sets where the particle at the centre of the cell came from; then `resume`.
   void set_map(Index c, const Vec3& xi) { d[c] = xi - mesh_.C[c], is_set[c] = 1; }
 
-  /// aB = alpha B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
-  /// eigenvalue of B among them, at most 1.
-  Real weigh(CellField<SymTensor>& aB, CellField<Real>& lambda, const CellField<Real>& alpha,
+  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// eigenvalue of B among those with solid, at most 1.
+  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
              std::span<const Index> cells) const;
-  /// B of a cell, det B = 1; the unit tensor where the extended map folds.
+  /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
   SymTensor B(Index c, Real alpha) const;
   /// det grad xi of a cell: 1 but for the error of volume.
   Real volume_ratio(Index c) const { return det(gradient_of_map(c)); }

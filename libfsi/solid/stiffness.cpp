@@ -30,15 +30,15 @@ Stiffness::Stiffness(const Mesh& mesh) : mesh_(mesh) {
 
 void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
-  constexpr Real share = 0.3, lambda_max = 20;
+  constexpr Real share = 0.3;
   const CellField<Real>& lambda = solid.lambda;
   for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
-    Real l = std::min(lambda[P], lambda_max);
-    if (f < mesh_.n_internal)
-      l += weights.lambda[f] * (std::min(lambda[mesh_.neighbour[f]], lambda_max) - l);
+    Real l = lambda[P];
+    if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
+    l *= solid.alpha[f];
     kappa[f] = share * solid.dt * solid.G * l;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];

@@ -16,7 +16,8 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
 
 /// What a face operator on the solid reads.
 struct Stiffening {
-  const CellField<Real>& lambda;  ///< owned and halo
+  const CellField<Real>& lambda;  ///< largest eigenvalue of B, on the band's cells and halo
+  const FaceField<Real>& alpha;   ///< part of solid at the band's faces
   const CellField<Vec3>& u;       ///< owned and halo
   const CellField<Tensor>& L;     ///< velocity gradient, on the band and halo
   Real G, rho, dt;
@@ -24,13 +25,13 @@ struct Stiffening {
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
 ///
-///   div(k grad (u* - u^n)),   k = 0.3 dt G min(lambda, 20)
+///   div(k grad (u* - u^n)),   k = 0.3 dt G alpha lambda
 ///
 /// stands in for the change of the elastic stress over the step, which with leapfrog is
 /// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
 /// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u^n - avg L^n)),   e = |d| (rho G lambda)^(1/2)
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda)^(1/2)
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, and
@@ -43,8 +44,8 @@ class Stiffness {
   explicit Stiffness(const Mesh& mesh);
 
   /// Collective. kappa_f: the implicit coefficient, k, on triangles and tetrahedra k + e; lambda
-  /// linear between the cells; zero outside the band of this and the last call. force += the
-  /// explicit rest of the second.
+  /// linear between the cells, times the face's alpha; zero outside the band of this and the last
+  /// call. force += the explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
              const FaceWeights& weights, const Band& band);
 

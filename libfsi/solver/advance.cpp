@@ -13,11 +13,12 @@ namespace {
 
 /// What a step must not leave behind; more than the limits that it was chosen by, since the state
 /// that it ends with is not known before.
-constexpr Real courant_max = 1.2;         // transport crosses one cell in a step
-constexpr Real elastic_max = 5;           // elastic waves: found stable up to here
-constexpr Real strain_max = 0.5;          // of the solid in one step
-constexpr Real eigenvalue_min = 1e-4;     // of B: its condition number reaches 1e8
-constexpr Real volume_change_max = 1e-4;  // of a cell, left over by the pressure solve
+constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
+constexpr Real elastic_max = 5;             // elastic waves: found stable up to here
+constexpr Real strain_max = 0.5;            // of the solid in one step
+constexpr Real eigenvalue_min = 1e-4;       // of B: its condition number reaches 1e8
+constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
+constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
 }  // namespace
 
@@ -25,7 +26,9 @@ std::string Solver::objection(Real dt) const {
   if (dt > advective_dt(courant_max)) return "the flow became too fast for the step";
   if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
     return "the flow is not divergence-free";
-  if (!body_ || !body_->semi_implicit()) return "";
+  if (!body_) return "";
+  if (body_->advected.remaining > fraction_excess_max) return "the fraction of solid left [0, 1]";
+  if (!body_->semi_implicit()) return "";
   if (dt > elastic_max * elastic_time()) return "the solid became too stiff for the step";
   if (dt > strain_dt(strain_max)) return "the solid strains too much in the step";
   if (global_min(body_->eigenvalue_min) < eigenvalue_min)

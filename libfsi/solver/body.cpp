@@ -13,10 +13,13 @@ Kinematics make(const Mesh& mesh, KinematicsKind kind) {
 
 }  // namespace
 
-Body::Body(const Mesh& mesh_, const shapes::Shape& shape, Real G, KinematicsKind kind)
+Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& shape, Real G,
+           KinematicsKind kind)
     : mesh(mesh_),
+      weights(weights_),
       alpha(mesh),
-      aB(mesh),
+      B(mesh),
+      alpha_f(mesh),
       lambda(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),
@@ -51,10 +54,13 @@ void Body::weigh() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
-        for (const Index c : band.last_core()) lambda[c] = 0;
-        eigenvalue_min = k.weigh(aB, lambda, alpha, band.core());
+        for (const Index c : last_cells) B[c] = {}, lambda[c] = 0;
+        last_cells = band.cells();
+        eigenvalue_min = k.weigh(B, lambda, alpha, k.extended ? band.cells() : band.core());
       },
       kinematics);
+  if (extended()) vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
+  mesh.halo.update(B);
   mesh.halo.update(lambda);
 }
 

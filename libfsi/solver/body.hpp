@@ -13,6 +13,7 @@
 #include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/stiffness.hpp"
 #include "libfsi/vof/advect.hpp"
+#include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/fill.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
@@ -26,7 +27,8 @@ enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map }
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
   /// Collective. Fills the undeformed shape.
-  Body(const Mesh& mesh, const shapes::Shape& shape, Real G, KinematicsKind kind);
+  Body(const Mesh& mesh, const FaceWeights& weights, const shapes::Shape& shape, Real G,
+       KinematicsKind kind);
 
   /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
   /// a reference map, which B alone does not tell.
@@ -38,10 +40,10 @@ struct Body {
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
   void list(io::Snapshot& snapshot);
-  /// Collective. Sets the band, aB and lambda from alpha and the kinematics' unknown.
+  /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
   void weigh();
   /// Whether elasticity may be treated implicitly: the paper's scheme does not.
-  bool semi_implicit() const { return !std::holds_alternative<solid::LeftCauchyGreen>(kinematics); }
+  bool semi_implicit() const { return extended(); }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);
@@ -50,15 +52,21 @@ struct Body {
   Real elastic_number() const {
     return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
   }
-  /// B of a cell.
-  SymTensor B(Index c) const {
+  /// Whether B is known around the solid as well.
+  bool extended() const {
+    return std::visit([](const auto& k) { return k.extended; }, kinematics);
+  }
+  /// B of any cell, the unit tensor where there is none.
+  SymTensor B_of(Index c) const {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
   }
 
   const Mesh& mesh;
+  const FaceWeights& weights;
   CellField<Real> alpha;     ///< volume fraction of the solid
-  CellField<SymTensor> aB;   ///< alpha B, on the band's core
-  CellField<Real> lambda;    ///< largest eigenvalue of aB; owned and halo
+  CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;   ///< part of solid at the band's faces, where B is extended
+  CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
   Real t = 0;                ///< time of alpha and B
   Real strain_rate = 0;      ///< largest rate of log B following the solid, in its last step
   Real eigenvalue_min = 1;   ///< of B on this rank
@@ -71,6 +79,7 @@ struct Body {
   solid::Stiffness stiffness;
   CellField<solid::SymGradient> grad;  ///< scratch of both
   vof::Filled filled;                  ///< volume and its error at the start
+  std::vector<Index> last_cells;       ///< where B was set
   vof::AdvectReport advected;          ///< of the last step
 };
 

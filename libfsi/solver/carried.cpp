@@ -63,7 +63,7 @@ CarriedOutput::CarriedOutput(const Case& which, const Options& options, const Ca
   write_row();
   if (which.output.field_interval > 0) fields_.emplace(which.output.directory, carried.mesh());
   if (field_.due(0)) write_fields();
-  write_summary("failed");
+  io::write_text(summary_file(), summary("failed"));
 }
 
 bool CarriedOutput::go_on() {
@@ -74,6 +74,17 @@ bool CarriedOutput::go_on() {
 }
 
 void CarriedOutput::after_step() {
+  try {
+    write_due();
+  } catch (const Error& error) {
+    const std::string text = summary("failed", error.what());
+    if (rank() == 0)
+      io::replace_file(summary_file(), {std::as_bytes(std::span(text))}, io::Durable::no);
+    throw;
+  }
+}
+
+void CarriedOutput::write_due() {
   if (carried_.steps() == 1) options_.check_unused();
   const bool every_step = case_.output.sample_interval <= 0;
   if (every_step || sample_.due(carried_.t())) write_row();
@@ -99,22 +110,23 @@ void CarriedOutput::write_fields() {
                  std::array{io::named("alpha", carried_.alpha()), io::named("u", carried_.u())});
 }
 
-void CarriedOutput::write_summary(const std::string& status) const {
+std::string CarriedOutput::summary(const std::string& status, const std::string& message) const {
   io::Summary s;
   s.case_name = "advect";
   s.status = status;
+  s.message = message;
   s.cells = carried_.mesh().n_global;
   s.ranks = ranks();
   s.steps = carried_.steps();
   s.t = carried_.t();
   s.wall_seconds = watch_.seconds();
   s.solid_volume_drift = drift_;
-  io::write_text(case_.output.directory + "/summary.json", io::json(s));
+  return io::json(s);
 }
 
 Ending CarriedOutput::finish() {
   if (row_at_ < carried_.t()) write_row();
-  write_summary(interrupted_ ? "interrupted" : "complete");
+  io::write_text(summary_file(), summary(interrupted_ ? "interrupted" : "complete"));
   const Real difference = carried_.difference();
   if (rank() == 0)
     std::printf(

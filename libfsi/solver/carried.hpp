@@ -69,7 +69,9 @@ class CarriedOutput {
  private:
   void write_row();
   void write_fields();
-  void write_summary(const std::string& status) const;
+  void write_due();
+  std::string summary_file() const { return case_.output.directory + "/summary.json"; }
+  std::string summary(const std::string& status, const std::string& message = "") const;
 
   const Case& case_;
   const Options& options_;

@@ -1,8 +1,12 @@
 #include "libfsi/solver/case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -68,6 +72,22 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   return output;
 }
 
+/// Lines "name value".
+std::map<std::string, std::string> lines(const std::string& text) {
+  std::map<std::string, std::string> items;
+  std::istringstream stream(text);
+  for (std::string name, value; stream >> name && std::getline(stream >> std::ws, value);)
+    items[name] = value;
+  return items;
+}
+
+/// Whether an option tells of the solid's shape and place at the start.
+bool of_undeformed_solid(const std::string& name) {
+  constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
+  return name.starts_with("solid_") &&
+         std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
+}
+
 }  // namespace
 
 Case read_case(Options& options, const std::string& driver) {
@@ -80,6 +100,38 @@ Case read_case(Options& options, const std::string& driver) {
   require(options.help() || !result.mesh.file.empty(),
           "option -mesh is missing: the gmsh file of the geometry");
   return result;
+}
+
+std::string simulated(const Options& options) {
+  constexpr std::array not_simulated{"mesh",    "petscpartitioner", "time_",
+                                     "output_", "sample_",          "check",
+                                     "restart", "max_wall_time"};
+  std::string text;
+  for (const auto& [name, value] : options.values()) {
+    const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
+    if (std::ranges::none_of(not_simulated, begins)) text += name + " " + value + "\n";
+  }
+  return text;
+}
+
+std::string differences(const std::string& before, const std::string& now) {
+  const std::map<std::string, std::string> old = lines(before), current = lines(now);
+  std::set<std::string> names;
+  for (const auto* side : {&old, &current})
+    for (const auto& item : *side) names.insert(item.first);
+  std::string text;
+  bool solid = false;
+  for (const std::string& name : names) {
+    const auto was = old.find(name), is = current.find(name);
+    if (was != old.end() && is != current.end() && was->second == is->second) continue;
+    text += (text.empty() ? "-" : ", -") + name + " ";
+    text += is == current.end() ? "left out" : is->second;
+    text += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
+    solid = solid || of_undeformed_solid(name);
+  }
+  if (text.empty()) return "";
+  return "goes on with other values than those of the checkpoint: " + text +
+         (solid ? "; the solid's shape and place stay those of the checkpoint" : "");
 }
 
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
@@ -109,11 +161,12 @@ void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
 
 std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (time.step > 0) return {{time.step, "fixed"}};
+  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}};
   // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
   // run is then small enough.
-  Real start = time.end / 100;
-  if (solver.state().step == 0) start = std::min(start, solver.boundary_dt(time.courant));
-  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}, {start, "start"}};
+  constexpr int steps_of_start = 10;
+  if (solver.state().step < steps_of_start)
+    all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
   if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
   constexpr Real strain = 0.4;  // below what a step is rejected for
   if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});

@@ -50,6 +50,13 @@ SolidSetup read_solid(Options& options, Physics& physics);
 /// Reads and checks the common options. Errors: Error{input}.
 Case read_case(Options& options, const std::string& driver);
 
+/// What is simulated, a line "name value" an option: all but those of mesh, time and output.
+std::string simulated(const Options& options);
+
+/// A sentence on where this run's `simulated` differs from that of the run it goes on from; ""
+/// where it does not.
+std::string differences(const std::string& before, const std::string& now);
+
 /// Collective. Prints what the run is about: mesh, quality, and the numbers that follow from the
 /// case's length and velocity.
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity);

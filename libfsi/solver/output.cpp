@@ -18,6 +18,11 @@ namespace {
 /// `text` of rank 0 decides for all.
 bool agreed(bool holds) { return broadcast(holds ? "yes" : "") == "yes"; }
 
+/// Rank 0. summary.json, where it can be written; else what it was before.
+void put_text(const std::string& directory, const std::string& text) {
+  io::replace_file(directory + "/summary.json", {std::as_bytes(std::span(text))}, io::Durable::no);
+}
+
 }  // namespace
 
 Output::Output(const Case& which, const Options& options, Solver& solver, const std::string& driver)
@@ -25,6 +30,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       options_(options),
       solver_(solver),
       driver_(driver),
+      simulated_(simulated(options)),
       lock_(io::make_directory(which.output.directory)),
       checkpoints_(which.output.directory, solver.mesh()),
       record_(which.solid.name == "torus"),
@@ -32,21 +38,13 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       field_(which.output.field_interval),
       checkpoint_(which.output.checkpoint_interval) {
   if (which.output.restart) {
-    checkpoints_.read(snapshot());
-    solver_.resume();
-    saved_step_ = solver_.state().step;
-    for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
-    if (rank() == 0)
-      std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
-                  static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
+    go_on_from_checkpoint();
   } else {
     checkpoints_.clear();
     checkpoint_.resume(0);  // the start needs none
   }
   first_step_ = row_step_ = solver_.state().step;
-  io::write_text(which.output.directory + "/run.yaml", options.yaml());
-  open_tables();
-  io::write_text(which.output.directory + "/summary.json", summary("failed"));
+  saving([this] { open(); });
   std::string line = "limits on dt:";
   for (const Limit& limit : limits(solver_, which.time)) {
     std::array<char, 48> text{};
@@ -58,15 +56,78 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
 
 Output::~Output() {
   if (finished_ || rank() != 0) return;
-  std::ofstream(case_.output.directory + "/summary.json") << summary("failed");
+  if (message_.empty()) message_ = "ended by an error that standard error tells";
+  put_text(case_.output.directory, summary("failed"));
+}
+
+/// A file that cannot be written ends the run, but not without a checkpoint and a word.
+void Output::saving(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const Error& error) {
+    const std::string& failure = solver_.report().failure;
+    message_ = (failure.empty() ? "" : failure + "; ") + error.what() + rescue(error.kind());
+    if (rank() == 0) put_text(case_.output.directory, summary("failed"));
+    finished_ = true;
+    throw Error(error.kind(), message_);
+  }
+}
+
+/// Whether a checkpoint holds the state; it may have been lost since.
+bool Output::saved() const {
+  return saved_step_ == solver_.state().step && agreed(std::ifstream(checkpoints_.file()).good());
+}
+
+/// Saves the state, if that is possible and worth it; returns what to say of it. Only where all
+/// ranks fail alike, which errors of these kinds do.
+std::string Output::rescue(Kind kind) {
+  if (kind != Kind::io && kind != Kind::numerics) return "";
+  if (solver_.state().step == first_step_) return "";
+  try {
+    io::make_directory(case_.output.directory);  // it may be what was lost
+    if (!saved()) write_checkpoint();
+  } catch (const Error&) {
+    // The first error is the one to tell.
+  }
+  return where();
+}
+
+std::string Output::where() const {
+  return saved() ? "; the state is in \"" + checkpoints_.file() + "\""
+                 : "; the state could not be saved";
+}
+
+void Output::go_on_from_checkpoint() {
+  const std::string now = simulated_;
+  checkpoints_.read(snapshot());
+  const std::string notice = differences(simulated_, now);
+  simulated_ = now;
+  solver_.resume();
+  saved_step_ = solver_.state().step;
+  for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
+  if (rank() != 0) return;
+  if (!notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
+  std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
+              static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
 }
 
 io::Snapshot Output::snapshot() {
-  io::Snapshot all("driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no"));
+  std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
+  if (const std::optional<Body>& body = solver_.body())
+    identity +=
+        body->semi_implicit() ? " kinematics=log_conformation" : " kinematics=left_cauchy_green";
+  io::Snapshot all(identity);
+  all.add("simulated", &simulated_);
   solver_.list(all);
   all.add("rejected_steps", &solver_.report().rejected);
   if (solver_.body()) record_.list(all);
   return all;
+}
+
+void Output::open() {
+  io::write_text(case_.output.directory + "/run.yaml", options_.yaml());
+  open_tables();
+  io::write_text(case_.output.directory + "/summary.json", summary("failed"));
 }
 
 void Output::open_tables() {
@@ -82,7 +143,8 @@ void Output::open_tables() {
   }
   if (case_.output.field_interval <= 0) return;
   fields_.emplace(directory, solver_.mesh(), t);
-  if (field_.due(solver_.state().t)) write_fields();
+  // With a restart the fields of its time may be what could not be written.
+  if (field_.due(solver_.state().t) || field_.at(solver_.state().t)) write_fields();
 }
 
 bool Output::go_on() {
@@ -110,7 +172,10 @@ Limit Output::count(const Limit& limit, Real dt) {
 }
 
 void Output::after_step(const Limit& asked, Real dt) {
-  if (!solver_.report().failure.empty()) return;
+  if (solver_.report().failure.empty()) saving([&] { write_due(asked, dt); });
+}
+
+void Output::write_due(const Limit& asked, Real dt) {
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
@@ -175,7 +240,7 @@ std::string Output::summary(const std::string& status) const {
   io::Summary s;
   s.case_name = driver_;
   s.status = status;
-  s.message = solver_.report().failure;
+  s.message = message_.empty() ? solver_.report().failure : message_;
   s.cells = solver_.mesh().n_global;
   s.ranks = ranks();
   s.steps = solver_.state().step;
@@ -196,18 +261,20 @@ Ending Output::finish() {
   const std::string& failure = solver_.report().failure;
   const bool complete = failure.empty() && !interrupted_;
   divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
-  if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
-  const bool saved = saved_step_ == solver_.state().step;
-  if (!complete || (case_.output.checkpoint_interval > 0 && !saved)) write_checkpoint();
-  const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
+  saving([&] {
+    if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
+    if ((!complete || case_.output.checkpoint_interval > 0) && !saved()) write_checkpoint();
+    if (failure.empty() && interrupted_ && !saved())
+      throw Error(Kind::io, "the run was interrupted and its checkpoint could not be written");
+    const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
+    io::write_text(case_.output.directory + "/summary.json", summary(status));
+  });
   finished_ = true;
-  io::write_text(case_.output.directory + "/summary.json", summary(status));
-  if (!failure.empty())
-    throw Error(Kind::numerics,
-                failure + "; the state before it is in \"" + checkpoints_.file() + "\"");
+  if (!failure.empty()) throw Error(Kind::numerics, failure + where());
   if (rank() == 0)
-    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n", status.c_str(),
-                solver_.state().t, static_cast<long long>(solver_.state().step), watch_.seconds(),
+    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n",
+                interrupted_ ? "interrupted" : "complete", solver_.state().t,
+                static_cast<long long>(solver_.state().step), watch_.seconds(),
                 case_.output.directory.c_str());
   return interrupted_ ? Ending::interrupted : Ending::complete;
 }

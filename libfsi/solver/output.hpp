@@ -1,12 +1,14 @@
 #pragma once
 // What a run leaves behind: tables, fields, checkpoints, summary, progress line.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libfsi/core/clock.hpp"
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/run.hpp"
 #include "libfsi/io/checkpoint.hpp"
 #include "libfsi/io/fields.hpp"
@@ -23,8 +25,9 @@ class Output {
  public:
   /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
   /// earlier one left there under the same names; with -restart the solver's state, the tables and
-  /// the series of fields go on from the newest sound checkpoint. Errors: Error{io}; Error{input}
-  /// where another run holds the directory or there is nothing to go on from.
+  /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
+  /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
+  /// directory, there is nothing to go on from, or it is of another driver or kinematics.
   Output(const Case& which, const Options& options, Solver& solver, const std::string& driver);
   ~Output();
   Output(const Output&) = delete;
@@ -35,15 +38,24 @@ class Output {
   bool go_on();
   /// Time of the next event that a step must hit.
   Real next_event() const;
-  /// Collective. After every step of length dt, 0 if it failed: writes what is due.
+  /// Collective. After every step of length dt, 0 if it failed: writes what is due. Errors: those
+  /// of the files, once a checkpoint is written and summary.json tells them, as far as that can be.
   void after_step(const Limit& limit, Real dt);
   /// Collective. Last files; returns how the run ended. Errors: Error{numerics} with the reason
-  /// where the last step failed; a checkpoint of the state before it is there.
+  /// where the last step failed; a checkpoint of the state before it is there. Error{io} where a
+  /// file, or the checkpoint of an interrupted run, could not be written.
   Ending finish();
 
  private:
   io::Snapshot snapshot();
+  void go_on_from_checkpoint();
+  void saving(const std::function<void()>& write);
+  std::string rescue(Kind kind);
+  bool saved() const;
+  std::string where() const;
+  void open();
   void open_tables();
+  void write_due(const Limit& asked, Real dt);
   void write_row(const Limit& limit, Real dt);
   Limit count(const Limit& limit, Real dt);
   void write_fields();
@@ -54,7 +66,7 @@ class Output {
   const Case& case_;
   const Options& options_;
   Solver& solver_;
-  std::string driver_;
+  std::string driver_, simulated_;
   io::Lock lock_;
   io::Checkpoint checkpoints_;
   SolidRecord record_;
@@ -65,6 +77,7 @@ class Output {
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
   std::map<std::string, Real> limits_;  // steps by what set their length
+  std::string message_;                 // why the run ended, where no step failed
   bool interrupted_ = false, finished_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/taylor.hpp"
 
 namespace fsi {
 namespace {
@@ -124,7 +125,8 @@ std::vector<Real> values(const std::vector<Entry>& row) {
 
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
   CellField<SymTensor> B(mesh, identity());
-  for (Index c = 0; c < mesh.n_cells; ++c) B[c] = body.B(c);
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    if (body.alpha[c] > 0) B[c] = body.B_of(c);
   return B;
 }
 
@@ -174,6 +176,9 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
   row.push_back({"overshoot", body.advected.remaining});
+  const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
+  row.push_back({"taylor", shape.deformation});
+  row.push_back({"taylor_angle", shape.angle});
   if (const auto* map = std::get_if<solid::ReferenceMap>(&body.kinematics))
     add_map(row, *map, body.alpha, mesh);
   if (!ring_ || mesh.dim == 2) return row;

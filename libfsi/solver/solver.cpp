@@ -59,6 +59,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  if (weights_.skewed) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
   const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_,
                               mu_,      kappa_,  1,    physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
@@ -71,7 +72,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
 }
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
-  body_.emplace(mesh_, shape, physics_.G, kind);
+  body_.emplace(mesh_, weights_, shape, physics_.G, kind);
   body_->t = state_.t;
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
@@ -127,7 +128,7 @@ void Solver::advance_interface(Real t) {
 
 void Solver::transport_elastic() {
   const Profile::Phase phase(profile_, solid_phase_);
-  const solid::Carrier carrier{state_.phi, state_.u, L_, u_stencil_, weights_};
+  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
@@ -141,6 +142,9 @@ void Solver::transport_elastic() {
 void Solver::mix_viscosity() {
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
+  if (!body_->extended()) return;
+  for (const Index f : body_->band.faces())
+    mu_[f] = physics_.mu_f + body_->alpha_f[f] * (physics_.mu_s - physics_.mu_f);
 }
 
 void Solver::stiffen(Real dt) {
@@ -150,14 +154,17 @@ void Solver::stiffen(Real dt) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
     mesh_.halo.update(L_);
   }
-  body_->stiffness.apply(kappa_, force_,
-                         {body_->lambda, state_.u, L_, physics_.G, physics_.rho, dt}, weights_,
-                         body_->band);
+  body_->stiffness.apply(
+      kappa_, force_, {body_->lambda, body_->alpha_f, state_.u, L_, physics_.G, physics_.rho, dt},
+      weights_, body_->band);
 }
 
 void Solver::set_elastic_force() {
   const Profile::Phase phase(profile_, solid_phase_);
-  body_->law.apply(force_, balance_, body_->aB, weights_, u_stencil_, body_->band, body_->grad);
+  const solid::Strained strained{body_->B, body_->alpha,
+                                 body_->extended() ? &body_->alpha_f : nullptr};
+  body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
+                   body_->grad);
   solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
                         body_->band.core());
 }
@@ -174,8 +181,8 @@ void Solver::predict_momentum(Real dt) {
 void Solver::predict_flux(Real dt) {
   const Profile::Phase phase(profile_, flux_phase_);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_,         p_b_,         L_, balance_, mu_,
-                              kappa_,   momentum_.theta, physics_.rho, dt};
+  const flow::FluxTerms terms{
+      state_.p, grad_p_, p_b_, L_, balance_, mu_, kappa_, momentum_.theta_at(dt), physics_.rho, dt};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 
@@ -201,10 +208,9 @@ void Solver::check() const {
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)
-    for (const Index c : body_->band.cells()) sum += body_->alpha[c] + trace(body_->aB[c]);
+    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
   if (!all_of_ranks(std::isfinite(sum)))
-    throw Error(Kind::numerics, "velocity, pressure or strain is not finite after step " +
-                                    std::to_string(state_.step + 1));
+    throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
 }
 
 Real Solver::advective_dt(Real courant) const {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/geometry/cut.hpp"
+#include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/stencil.hpp"
 
 namespace fsi::vof {
@@ -80,36 +80,6 @@ void interface_speed(const Interface& interface, const CellField<Vec3>& u, const
   mesh.halo.update(s.speed);
 }
 
-/// Mean over a step of the part of face f behind the plane of cell c, which moves by `distance`.
-Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real distance) {
-  const auto n = static_cast<Index>(mesh.face_points[f].size());
-  const auto corner = [&](Index i) { return mesh.corner(f, i % n, c) - p.centre; };
-  if (n == 2) {
-    geometry::Levels<2> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1))};
-    std::ranges::sort(q);
-    return geometry::mean_part_below(q, 0, distance);
-  }
-  if (n == 3) {
-    geometry::Levels<3> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1)),
-                          dot(p.n_hat, corner(2))};
-    std::ranges::sort(q);
-    return geometry::mean_part_below(q, 0, distance);
-  }
-  Vec3 middle;
-  for (Index i = 0; i < n; ++i) middle += corner(i);
-  middle = middle / n;
-  Real sum = 0, whole = 0;
-  for (Index i = 0; i < n; ++i) {
-    const Vec3 a = corner(i), b = corner(i + 1);
-    const Real area = norm(cross(a - middle, b - middle));
-    geometry::Levels<3> q{dot(p.n_hat, middle), dot(p.n_hat, a), dot(p.n_hat, b)};
-    std::ranges::sort(q);
-    sum += area * geometry::mean_part_below(q, 0, distance);
-    whole += area;
-  }
-  return sum / whole;
-}
-
 void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
                   const FaceField<Real>& phi, Real dt, const Mesh& mesh, AdvectScratch& s) {
   for (const Index f : s.full) s.solid[f] = phi[f] * dt;
@@ -122,7 +92,7 @@ void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
     }
     const Piece& p = interface.piece[c];
     // dV = phi integral over dt of A(t) / A   [Roenby16]
-    s.solid[f] = v * (p.area > 0 ? swept_part(mesh, f, c, p, s.speed[c] * dt)
+    s.solid[f] = v * (p.area > 0 ? swept_part(mesh, f, c, p, 0, s.speed[c] * dt)
                                  : std::clamp(alpha[c], Real{0}, Real{1}));
   }
 }

@@ -8,6 +8,7 @@ MESHES = {
     "cavity": ("cavity", 2, {"n": 6}),
     "box": ("box", 2, {"n": 6, "lz": 0}),
     "thin": ("box", 2, {"n": 6, "nx": 2, "lz": 0}),
+    "shear": ("shear", 2, {"n": 4, "H": 8}),
     "pipe": ("pipe", 3, {"n": 4, "length": 1}),
 }
 
@@ -76,6 +77,10 @@ OPTIONS = [
     option("shear modulus NaN", "-solid_shear_modulus nan", "-solid_shear_modulus"),
     option("solid outside", "-solid_shape sphere -solid_center 3,3,0", "empty"),
     option("solid through the wall", "-solid_shape sphere -solid_center 0.1,0.5,0", "sticks out"),
+    option("shear rate zero", "-shear_rate 0 -mesh_periodic left,right", "-shear_rate", "value > 0",
+           driver="fsi-shear", mesh="shear"),
+    option("shear rate NaN", "-shear_rate nan", "-shear_rate", "nan", driver="fsi-shear", mesh="shear"),
+    option("shear between sides that are not joined", "", "left", driver="fsi-shear", mesh="shear"),
     option("solver unknown", "-p_ksp_type conjugat", "conjugat"),
     option("nothing to restart from", "-restart -output_dir out/nothing", "no checkpoint",
            "out/nothing"),

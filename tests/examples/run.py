@@ -24,8 +24,8 @@ TIGHT = ["-p_ksp_rtol", "1e-10"]
 OF_THE_RUN = {"wall_per_step", "pressure_iterations", "divergence_max", "overshoot", "det_B_min",
               "det_B_max", "min_eig_B"}
 # The axis of a round solid has no direction of its own.
-AXIS = {"nx", "ny", "nz", "angle"}
-ROUND = {"cavity_disc", "stenosis_sphere", "vortex"}
+AXIS = {"nx", "ny", "nz", "angle", "taylor_angle"}
+ROUND = {"cavity_disc", "shear", "stenosis_sphere", "vortex"}
 failures = []
 
 

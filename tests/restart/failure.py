@@ -5,13 +5,18 @@
 
 The pressure solver is given too few iterations: after a start from rest with a step that needs none,
 every step fails. With enough iterations the run goes on from the checkpoint. A run out of wall time
-ends with exit code 5 and a checkpoint.
+ends with exit code 5 and a checkpoint. A file that cannot be written ends a run with exit code 4, the
+sentence in summary.json and a checkpoint, as far as there is room for them.
 """
+import glob
 import json
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 failures = []
 
@@ -29,6 +34,81 @@ def run(command):
 def summary(out):
     with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
         return json.load(file)
+
+
+def start(command, out, **more):
+    """A run that has begun to write."""
+    shutil.rmtree(out, ignore_errors=True)
+    process = subprocess.Popen([*command, "-output_dir", out], stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **more)
+    while process.poll() is None and not os.path.exists(os.path.join(out, "summary.json")):
+        time.sleep(0.01)
+    return process
+
+
+def check_file_failure(process, out, word, saved=True):
+    said = process.communicate()[1]
+    state = summary(out)
+    check(process.returncode == 4, f"{word}: exit code 4 ({process.returncode})")
+    check(state["status"] == "failed" and word in state["message"],
+          f"{word}: summary.json tells it: {state['message']}")
+    check(state["message"] in said, f"{word}: standard error tells the same: {said}")
+    check(bool(glob.glob(os.path.join(out, "checkpoint_*.h5"))) == saved,
+          f"{word}: {'a' if saved else 'no'} checkpoint")
+
+
+def without_signal():
+    """A file that grows too large is then an error, as on a full disk, and no signal."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+
+def file_failures(drivers, folder, case):
+    """case: a driver's command without its end and output."""
+    out = os.path.join(folder, "file_failure")
+    endless = [*case, "-time_end", "1000", "-output_interval", "0.2"]
+
+    process = start(endless, out)
+    shutil.rmtree(out + "-gone", ignore_errors=True)
+    os.rename(out, out + "-gone")
+    check_file_failure(process, out, "fields_")
+    resumed = run([*case, "-output_dir", out, "-time_end", "1", "-restart"])
+    check(resumed.returncode == 0 and summary(out)["status"] == "complete",
+          "a run whose directory vanished goes on in a new one: " + resumed.stderr)
+
+    process = start(endless, out)
+    os.mkdir(os.path.join(out, "fields_0010.hdf"))
+    check_file_failure(process, out, "fields_0010.hdf")
+    os.rmdir(os.path.join(out, "fields_0010.hdf"))
+    resumed = run([*case, "-output_dir", out, "-time_end", "2.2", "-output_interval", "0.2",
+                   "-restart"])
+    check(resumed.returncode == 0, "with the obstacle gone it goes on " + resumed.stderr)
+    with open(os.path.join(out, "fields.hdf.series"), encoding="utf-8") as file:
+        times = [entry["time"] for entry in json.load(file)["files"]]
+    check(len(times) == 12, f"no field is missing: {times}")
+
+    # The tables outgrow what is allowed, the checkpoint does not; then it does too.
+    for limit, saved in ((150_000, True), (20_000, False)):
+        process = start([*case, "-time_end", "1000", "-output_interval", "0", "-time_step", "0.001"],
+                        out, restore_signals=False, preexec_fn=without_signal)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, limit))
+        check_file_failure(process, out, ".csv", saved)
+        for file in ("flow.csv", "solid.csv"):
+            with open(os.path.join(out, file), encoding="utf-8") as table:
+                text = table.read()
+            check(text.endswith("\n") and len({line.count(",") for line in text.splitlines()}) == 1,
+                  f"{file} holds whole rows")
+    process = start([*case, "-time_end", "1000", "-output_interval", "0", "-sample_interval", "1000",
+                     "-max_wall_time", "1"], out, restore_signals=False, preexec_fn=without_signal)
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (20_000, 20_000))
+    check_file_failure(process, out, "interrupted", False)
+
+    process = start([os.path.join(drivers, "fsi-advect"), *case[1:4], "-solid_shape", "sphere",
+                     "-solid_center", "0.5,0.75,0", "-solid_radius", "0.15", "-time_end", "8",
+                     "-output_interval", "0.02"], out)
+    os.rename(out, out + "-moved")
+    said = process.communicate()[1]
+    check(process.returncode == 4 and "fields_" in said, "fsi-advect: exit code 4 and " + said)
+    shutil.rmtree(out + "-moved")
 
 
 def main():
@@ -70,6 +150,8 @@ def main():
     check(stopped.returncode == 5, f"out of time: exit code 5 ({stopped.returncode})")
     check(summary(out)["status"] == "interrupted", "interrupted")
     check(any(name.startswith("checkpoint_") for name in os.listdir(out)), "with a checkpoint")
+
+    file_failures(drivers, folder, command[:4])
     return 1 if failures else 0
 
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace fsi {
@@ -87,9 +88,13 @@ TEST(Eigen, PlaneTensorKeepsTheThirdDirection) {
   EXPECT_NEAR(std::abs(e.vector[2].z), 1, 1e-15);
 }
 
-TEST(Eigen, NonFiniteInputEnds) {
-  const Eigen e = eigen({std::nan(""), 1, 0, 2, 0, 3});
-  EXPECT_TRUE(std::isnan(e.value[0]) || std::isnan(e.value[1]) || std::isnan(e.value[2]));
+TEST(Eigen, NonFiniteInputGivesNoNumbers) {
+  for (const Real bad : {std::nan(""), std::numeric_limits<Real>::infinity()})
+    for (int i = 0; i < 6; ++i) {
+      SymTensor t{1, 0.5, 0, 2, 0, 3};
+      *std::array{&t.xx, &t.xy, &t.xz, &t.yy, &t.yz, &t.zz}[static_cast<std::size_t>(i)] = bad;
+      for (const Real value : eigen(t).value) EXPECT_TRUE(std::isnan(value));
+    }
 }
 
 }  // namespace

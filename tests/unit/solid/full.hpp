@@ -22,7 +22,7 @@ struct Full {
   explicit Full(const BoxFile& box)
       : mesh(read_box(box)),
         weights(mesh),
-        stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
+        stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false)),
         alpha(mesh, 1),
         phi(mesh),
         u(mesh),

@@ -245,7 +245,9 @@ TEST(Extension, RelaxesTheOutermostCellsByTheirRelativeMotion) {
     }
     Band known(mesh);
     known.rebuild(ball.inside, solid::alpha_known);
-    solid::Extension(mesh).apply(T, ball.inside, known, u, dt);
+    solid::Extension extension(mesh);
+    extension.mark(ball.inside, known);
+    extension.apply(T, ball.inside, known, u, dt);
     return T;
   };
   const CellField<SymTensor> own = relaxed(0, 1), outer = relaxed(1, 1e9), half = relaxed(1, 0.1);

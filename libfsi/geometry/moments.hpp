@@ -1,0 +1,29 @@
+#pragma once
+// Volume, first and second moments of a cell and of the part of it below a plane.
+
+#include "libfsi/geometry/cut.hpp"
+
+namespace fsi::geometry {
+
+/// Integrals of 1, x and x x over a body (2-D: an area), x from the origin of the coordinates.
+struct Moments {
+  Real volume = 0;
+  Vec3 first;
+  SymTensor second;
+};
+
+/// x x.
+constexpr SymTensor square(const Vec3& x) {
+  return {x.x * x.x, x.x * x.y, x.x * x.z, x.y * x.y, x.y * x.z, x.z * x.z};
+}
+
+/// The same body with the origin of the coordinates moved to -shift: every x becomes x + shift.
+Moments shifted(const Moments& m, const Vec3& shift);
+
+/// Moments of the whole cell.
+Moments moments(const Polytope& cell);
+
+/// Of its part below the plane; exact.
+Moments moments_below(const Polytope& cell, const Plane& plane);
+
+}  // namespace fsi::geometry

@@ -1,0 +1,63 @@
+#include "libfsi/vof/face_fraction.hpp"
+
+#include <algorithm>
+
+#include "libfsi/geometry/cut.hpp"
+
+namespace fsi::vof {
+
+Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Real s1) {
+  const auto n = static_cast<Index>(mesh.face_points[f].size());
+  const auto corner = [&](Index i) { return mesh.corner(f, i % n, c) - p.centre; };
+  if (n == 2) {
+    geometry::Levels<2> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1))};
+    std::ranges::sort(q);
+    return geometry::mean_part_below(q, s0, s1);
+  }
+  if (n == 3) {
+    geometry::Levels<3> q{dot(p.n_hat, corner(0)), dot(p.n_hat, corner(1)),
+                          dot(p.n_hat, corner(2))};
+    std::ranges::sort(q);
+    return geometry::mean_part_below(q, s0, s1);
+  }
+  Vec3 middle;
+  for (Index i = 0; i < n; ++i) middle += corner(i);
+  middle = middle / n;
+  Real sum = 0, whole = 0;
+  for (Index i = 0; i < n; ++i) {
+    const Vec3 a = corner(i), b = corner(i + 1);
+    const Real area = norm(cross(a - middle, b - middle));
+    geometry::Levels<3> q{dot(p.n_hat, middle), dot(p.n_hat, a), dot(p.n_hat, b)};
+    std::ranges::sort(q);
+    sum += area * geometry::mean_part_below(q, s0, s1);
+    whole += area;
+  }
+  return sum / whole;
+}
+
+void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
+                   std::span<const Index> faces) {
+  for (const Index f : faces) {
+    const Index P = mesh.owner[f];
+    if (f >= mesh.n_internal) {
+      alpha_f[f] = alpha[P];
+      continue;
+    }
+    const Index N = mesh.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    Real sum = 0;
+    int planes = 0;
+    for (const Index c : {P, N}) {
+      const Piece& p = interface.piece[c];
+      if (!(p.area > 0)) continue;
+      // The face moves from P to N through -lambda to 1 - lambda of d, the plane the other way.
+      const Real d = dot(p.n_hat, mesh.d[f]);
+      sum += swept_part(mesh, f, c, p, lambda * d, (lambda - 1) * d);
+      ++planes;
+    }
+    alpha_f[f] = planes > 0 ? sum / planes : alpha[P] + lambda * (alpha[N] - alpha[P]);
+  }
+}
+
+}  // namespace fsi::vof

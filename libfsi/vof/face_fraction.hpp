@@ -1,0 +1,26 @@
+#pragma once
+// Faces against planes of the interface.
+
+#include <span>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/mesh/mesh.hpp"
+#include "libfsi/operators/face_weights.hpp"
+#include "libfsi/vof/reconstruct.hpp"
+
+namespace fsi::vof {
+
+/// Mean of the part of face f behind the plane p of cell c, while the plane moves along its normal
+/// from distance s0 to s1.
+Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Real s1);
+
+/// alpha_f: the part of solid between the centres of the two cells of a face, in the prism that the
+/// face sweeps along d, through which a flux over this distance passes. From the plane of a cell,
+/// the mean of both where both have one; without any, alpha_f = (1 - lambda) alpha_P + lambda
+/// alpha_N: what interface there is lies on the face. Boundary faces: alpha of the cell. Sets the
+/// listed faces. alpha, interface: owned and halo.
+void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
+                   std::span<const Index> faces);
+
+}  // namespace fsi::vof

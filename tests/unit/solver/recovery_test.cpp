@@ -1,0 +1,186 @@
+// Steps that are taken back: the state after the recovered step is that of a solver which took the
+// smaller step at once, bit for bit, and where no step is small enough the state is the last good
+// one.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// A disc in a cavity whose lid slides.
+struct Scene {
+  bool simplex = false;
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Real G = 1, mu_s = 0.01;
+  Condition lid = Wall{{1, 0, 0}};
+};
+
+constexpr Index n = 16;
+
+Mesh mesh_of(const Scene& scene) {
+  return test::read_box({.n = {n, n, 0}, .simplex = scene.simplex});
+}
+
+struct Trial {
+  Trial(const Mesh& mesh, const Scene& scene)
+      : solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = scene.G},
+               {.conditions = {
+                    {"top", scene.lid}, {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}}}) {
+    solver.start([](const Vec3&) { return Vec3{}; });
+    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.55, 0}), scene.kinematics);
+  }
+  void steps(int count, Real dt) {
+    for (int i = 0; i < count; ++i) ASSERT_EQ(solver.advance(dt), dt);
+  }
+  /// All that a checkpoint would hold, halo included, but for the limit on the steps to come.
+  std::vector<Real> state() {
+    const Mesh& mesh = solver.mesh();
+    io::Snapshot all;
+    solver.list(all);
+    std::vector<Real> values;
+    for (const auto& f : all.fields()) {
+      const Index items = f.on == On::cells ? mesh.n_cells : mesh.n_faces;
+      values.insert(values.end(), f.values,
+                    f.values + static_cast<std::ptrdiff_t>(items) * f.width);
+    }
+    for (const auto& [name, scalar] : all.scalars()) {
+      if (name == "dt_cap") continue;
+      if (const auto* real = std::get_if<Real*>(&scalar)) values.push_back(**real);
+      if (const auto* whole = std::get_if<std::int64_t*>(&scalar))
+        values.push_back(static_cast<Real>(**whole));
+    }
+    return values;
+  }
+  std::int64_t rejections() const {
+    std::int64_t sum = 0;
+    for (const auto& [reason, number] : solver.report().rejections) sum += number;
+    return sum;
+  }
+  Solver solver;
+};
+
+/// A step of four times the Courant limit after some good ones, and three more while dt grows
+/// again.
+void expect_recovery(const Scene& scene, int good_steps) {
+  const Mesh mesh = mesh_of(scene);
+  Trial one(mesh, scene), other(mesh, scene);
+  one.steps(good_steps, 0.02), other.steps(good_steps, 0.02);
+  const Real limit = std::min(one.solver.advective_dt(1.2), one.solver.boundary_dt(1.2));
+  const Real asked = 8 * 0.52 * limit;
+  const StepReport& report = one.solver.report();
+  Real expected = asked;
+  for (int i = 0; i < 4; ++i) {
+    const std::int64_t before = report.rejected;
+    const Real dt = one.solver.advance(asked);
+    ASSERT_GT(dt, 0) << report.failure;
+    if (i == 0) {
+      EXPECT_GE(report.rejected, 1);
+    }
+    EXPECT_EQ(dt, std::ldexp(expected, static_cast<int>(before - report.rejected)));
+    EXPECT_TRUE(report.held_back);
+    ASSERT_EQ(other.solver.advance(dt), dt);
+    EXPECT_TRUE(one.state() == other.state())
+        << "step " << i << " after " << good_steps << " good ones";
+    expected = 1.1 * dt;
+  }
+  EXPECT_EQ(report.rejected, one.rejections());
+  EXPECT_TRUE(report.rejections.contains("the flow became too fast for the step"));
+  EXPECT_EQ(report.failure, "");
+  EXPECT_EQ(other.solver.report().rejected, 0);
+  EXPECT_FALSE(other.solver.report().held_back);
+  // What lies below the limit on growth is not held back.
+  EXPECT_EQ(one.solver.advance(expected / 2), expected / 2);
+  EXPECT_FALSE(report.held_back);
+}
+
+TEST(Recovery, IsTheSmallerStepOnQuads) {
+  for (const int good : {0, 1, 2, 3, 6, 7}) expect_recovery({}, good);
+}
+
+TEST(Recovery, IsTheSmallerStepOnTriangles) {
+  for (const int good : {6, 7}) expect_recovery({.simplex = true}, good);
+}
+
+TEST(Recovery, IsTheSmallerStepForThePaperScheme) {
+  for (const int good : {6, 7})
+    expect_recovery({.kinematics = KinematicsKind::left_cauchy_green, .G = 0.1}, good);
+}
+
+TEST(Recovery, IsTheSmallerStepWithTwoViscosities) {
+  for (const int good : {6, 7}) expect_recovery({.mu_s = 0.1}, good);
+}
+
+TEST(Recovery, NamesAStiffSolid) {
+  const Scene scene{.G = 1000};
+  const Mesh mesh = mesh_of(scene);
+  Trial one(mesh, scene), other(mesh, scene);
+  one.steps(3, 0.002), other.steps(3, 0.002);
+  const Real asked = 1.6 * one.solver.elastic_dt(), dt = one.solver.advance(asked);
+  EXPECT_EQ(dt, asked / 2);
+  EXPECT_EQ(one.solver.report().rejections,
+            (std::map<std::string, std::int64_t>{{"the solid became too stiff for the step", 1}}));
+  EXPECT_EQ(other.solver.advance(dt), dt);
+  EXPECT_TRUE(one.state() == other.state());
+}
+
+/// Nine tries fail for that reason; the state is what it was.
+void expect_failure(Trial& run, Real dt, const std::string& reason) {
+  const std::vector<Real> before = run.state();
+  const StepReport& report = run.solver.report();
+  const std::int64_t rejected = report.rejected;
+  EXPECT_EQ(run.solver.advance(dt), 0);
+  EXPECT_EQ(report.rejected, rejected + 9);
+  EXPECT_EQ(run.rejections(), report.rejected);
+  EXPECT_NE(report.failure.find(reason), std::string::npos) << report.failure;
+  const std::string step = "step " + std::to_string(run.solver.state().step + 1) + " from t = ";
+  EXPECT_EQ(report.failure.find(step), 0) << report.failure;
+  EXPECT_TRUE(run.state() == before) << "the state is the last good one";
+}
+
+TEST(Recovery, GivesUpAtASpeedThatNoHalvingReaches) {
+  for (const bool simplex : {false, true}) {
+    const Scene scene{.simplex = simplex};
+    const Mesh mesh = mesh_of(scene);
+    Trial one(mesh, scene), other(mesh, scene);
+    one.steps(4, 0.02), other.steps(4, 0.02);
+    expect_failure(one, 1e4, "the flow became too fast for the step");
+    // It could go on from there as if nothing had been tried.
+    one.steps(3, 0.02), other.steps(3, 0.02);
+    EXPECT_TRUE(one.state() == other.state());
+  }
+}
+
+TEST(Recovery, GivesUpOnABoundaryThatIsNotANumber) {
+  const FixedVelocity lid{[](const Vec3&, Real t) {
+    return Vec3{t > 0.080001 ? std::numeric_limits<Real>::quiet_NaN() : 1, 0, 0};
+  }};
+  const Scene scene{.lid = lid};
+  const Mesh mesh = mesh_of(scene);
+  Trial one(mesh, scene), other(mesh, scene);
+  one.steps(3, 0.02), other.steps(3, 0.02);
+  const Real dt = one.solver.advance(0.03);
+  EXPECT_EQ(dt, 0.015);
+  EXPECT_EQ(other.solver.advance(dt), dt);
+  EXPECT_TRUE(one.state() == other.state());
+  EXPECT_EQ(one.solver.advance(0.005), 0.005);
+  expect_failure(one, 0.1, "did not converge: DIVERGED_NANORINF");
+}
+
+TEST(Recovery, GivesUpOnACrushedSolid) {
+  const Scene scene{.G = 1e-6};
+  const Mesh mesh = mesh_of(scene);
+  Trial run(mesh, scene);
+  run.solver.body()->set_B([](const Vec3&) { return SymTensor{5e-5, 0, 0, 2e4, 0, 1}; });
+  expect_failure(run, 1e-3, "the smallest eigenvalue of B fell below 1e-4");
+}
+
+}  // namespace
+}  // namespace fsi
