@@ -66,6 +66,25 @@ constexpr Tensor transpose(const Tensor& t) {
   return {t.xx, t.yx, t.zx, t.xy, t.yy, t.zy, t.xz, t.yz, t.zz};
 }
 constexpr Real trace(const Tensor& t) { return t.xx + t.yy + t.zz; }
+/// (a b)_ij = a_ik b_kj.
+constexpr Tensor dot(const Tensor& a, const Tensor& b) {
+  const Vec3 x = dot(a, Vec3{b.xx, b.yx, b.zx}), y = dot(a, Vec3{b.xy, b.yy, b.zy}),
+             z = dot(a, Vec3{b.xz, b.yz, b.zz});  // columns
+  return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
+}
+constexpr Real det(const Tensor& m) {
+  return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
+         m.xz * (m.yx * m.zy - m.yy * m.zx);
+}
+/// By cofactors; det not zero.
+constexpr Tensor inverse(const Tensor& m) {
+  const Real s = 1 / det(m);
+  return {s * (m.yy * m.zz - m.yz * m.zy), s * (m.xz * m.zy - m.xy * m.zz),
+          s * (m.xy * m.yz - m.xz * m.yy), s * (m.yz * m.zx - m.yx * m.zz),
+          s * (m.xx * m.zz - m.xz * m.zx), s * (m.xz * m.yx - m.xx * m.yz),
+          s * (m.yx * m.zy - m.yy * m.zx), s * (m.xy * m.zx - m.xx * m.zy),
+          s * (m.xx * m.yy - m.xy * m.yx)};
+}
 
 /// A symmetric tensor, upper triangle.
 struct SymTensor {

@@ -5,21 +5,6 @@
 namespace fsi {
 namespace {
 
-Real det(const Tensor& m) {
-  return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
-         m.xz * (m.yx * m.zy - m.yy * m.zx);
-}
-
-/// Inverse by cofactors.
-Tensor inverse(const Tensor& m) {
-  const Real s = 1 / det(m);
-  return {s * (m.yy * m.zz - m.yz * m.zy), s * (m.xz * m.zy - m.xy * m.zz),
-          s * (m.xy * m.yz - m.xz * m.yy), s * (m.yz * m.zx - m.yx * m.zz),
-          s * (m.xx * m.zz - m.xz * m.zx), s * (m.xz * m.yx - m.xx * m.yz),
-          s * (m.yx * m.zy - m.yy * m.zx), s * (m.xy * m.zx - m.xx * m.zy),
-          s * (m.xx * m.yy - m.xy * m.yx)};
-}
-
 void add_to(Vec3& grad, Real dq, const Vec3& g) { grad += dq * g; }
 void add_to(Tensor& grad, const Vec3& dq, const Vec3& g) { grad += outer(dq, g); }
 

@@ -20,6 +20,8 @@ class LeftCauchyGreen {
   static constexpr Real alpha_min = 0.1;
   /// Where in a step the solid stands when the momentum equation is solved: at its end.
   static constexpr Real ahead = 1;
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  static constexpr Real elastic_number = 0.8;
   /// Whether B is known around the solid as well.
   static constexpr bool extended = false;
 

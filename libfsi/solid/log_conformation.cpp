@@ -3,28 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
 #include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
 namespace {
-
-/// Limited half step from the upwind value: with r = 2 slope / step - 1 the upwind over the
-/// downwind difference, slope that of the upwind cell's gradient,
-///   max(0, min(2 r, (2 + r) / 3, 2)) step / 2                                       [Koren93]
-/// third order on smooth profiles of a uniform mesh.
-Real koren(Real step, Real slope) {
-  const Real upwind = 2 * slope - step;
-  if (upwind * step <= 0) return 0;
-  const Real size =
-      std::min({2 * std::abs(upwind), std::abs(step + 2 * slope) / 3, 2 * std::abs(step)});
-  return std::copysign(size / 2, step);
-}
-
-SymTensor koren(const SymTensor& step, const SymTensor& slope) {
-  return {koren(step.xx, slope.xx), koren(step.xy, slope.xy), koren(step.xz, slope.xz),
-          koren(step.yy, slope.yy), koren(step.yz, slope.yz), koren(step.zz, slope.zz)};
-}
 
 Real largest(const SymTensor& t) {
   return std::max({std::abs(t.xx), std::abs(t.xy), std::abs(t.xz), std::abs(t.yy), std::abs(t.yz),

@@ -23,6 +23,8 @@ class LogConformation {
   static constexpr Real alpha_min = 1e-9;
   /// Where in a step the solid stands when the momentum equation is solved.
   static constexpr Real ahead = 0.5;
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  static constexpr Real elastic_number = 4;
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;
 

@@ -1,10 +1,13 @@
 #include "libfsi/solver/body.hpp"
 
+#include "libfsi/core/error.hpp"
+
 namespace fsi {
 namespace {
 
 Kinematics make(const Mesh& mesh, KinematicsKind kind) {
   if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
+  if (kind == KinematicsKind::reference_map) return solid::ReferenceMap(mesh);
   return solid::LogConformation(mesh);
 }
 
@@ -40,6 +43,13 @@ void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
   resume();
 }
 
+void Body::set_map(const std::function<Vec3(const Vec3&)>& xi_0) {
+  auto* map = std::get_if<solid::ReferenceMap>(&kinematics);
+  require(map != nullptr, "a map can be given to reference_map only; give B");
+  for (Index c = 0; c < mesh.n_cells; ++c) map->set_map(c, xi_0(mesh.C[c]));
+  resume();
+}
+
 void Body::weigh() {
   std::visit(
       [&](auto& k) {
@@ -60,6 +70,10 @@ void Body::list(io::Snapshot& snapshot) {
   snapshot.add("solid_strain_rate", &strain_rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
+  if (auto* k = std::get_if<solid::ReferenceMap>(&kinematics)) {
+    snapshot.add("map", k->d);
+    snapshot.add("map_is_set", k->is_set);
+  }
 }
 
 void Body::resume() {

@@ -10,6 +10,7 @@
 #include "libfsi/solid/left_cauchy_green.hpp"
 #include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/neo_hookean.hpp"
+#include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/stiffness.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
@@ -19,8 +20,9 @@
 namespace fsi {
 
 /// How the deformation of the solid is tracked.
-using Kinematics = std::variant<solid::LeftCauchyGreen, solid::LogConformation>;
-enum class KinematicsKind { left_cauchy_green, log_conformation };
+using Kinematics =
+    std::variant<solid::LeftCauchyGreen, solid::LogConformation, solid::ReferenceMap>;
+enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map };
 
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
@@ -28,8 +30,12 @@ struct Body {
   Body(const Mesh& mesh, const FaceWeights& weights, const shapes::Shape& shape, Real G,
        KinematicsKind kind);
 
-  /// Collective. Gives the solid a deformation to start from; det B = 1.
+  /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
+  /// a reference map, which B alone does not tell.
   void set_B(const std::function<SymTensor(const Vec3&)>& B_0);
+  /// Collective. The same for a reference map: xi_0(x) is where the particle at x came from.
+  /// Errors: Error{input} with other kinematics.
+  void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Collective. Renews what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -41,6 +47,10 @@ struct Body {
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);
+  }
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  Real elastic_number() const {
+    return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
   }
   /// Whether B is known around the solid as well.
   bool extended() const {

@@ -87,6 +87,19 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
   row.push_back({"bending_prime", ring.bending_prime});
 }
 
+/// Extremes of det grad xi where solid fills half a cell or more: how far the map's own volume
+/// went.
+void add_map(std::vector<Entry>& row, const solid::ReferenceMap& map, const CellField<Real>& alpha,
+             const Mesh& mesh) {
+  Real low = std::numeric_limits<Real>::max(), high = -low;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (!(alpha[c] >= solid::alpha_known)) continue;
+    low = std::min(low, map.volume_ratio(c)), high = std::max(high, map.volume_ratio(c));
+  }
+  row.push_back({"map_det_min", global_min(low)});
+  row.push_back({"map_det_max", global_max(high)});
+}
+
 /// Number of a limit in flow.csv.
 Real limit_code(const std::string& name) {
   constexpr std::array<std::string_view, 9> names{
@@ -166,6 +179,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle});
+  if (const auto* map = std::get_if<solid::ReferenceMap>(&body.kinematics))
+    add_map(row, *map, body.alpha, mesh);
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

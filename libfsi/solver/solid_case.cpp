@@ -66,8 +66,11 @@ SolidSetup read_solid(Options& options, Physics& physics) {
   options.choice("solid_law", "neo_hookean", {"neo_hookean"}, "elastic law");
   const std::string kinematics =
       options.choice("solid_kinematics", "log_conformation",
-                     {"log_conformation", "left_cauchy_green"}, "how deformation is tracked");
+                     {"log_conformation", "left_cauchy_green", "reference_map"},
+                     "how deformation is tracked: log B, the paper's B~, or the map to where each "
+                     "particle once was");
   solid.kinematics = kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
+                     : kinematics == "reference_map"   ? KinematicsKind::reference_map
                                                        : KinematicsKind::log_conformation;
   if (solid.name == "none" && !options.help()) return solid;
   physics.solid_acceleration =

@@ -89,6 +89,7 @@ void Solver::step(Real dt) {
                                                         //            [Matsumiya25] (5)
     transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
+                          // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
     stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
@@ -239,7 +240,7 @@ Real Solver::elastic_time() const {
 
 Real Solver::elastic_dt() const {
   if (!body_) return std::numeric_limits<Real>::max();
-  return (body_->semi_implicit() ? 4 : 0.8) * elastic_time();
+  return body_->elastic_number() * elastic_time();
 }
 
 Real Solver::strain_dt(Real strain) const {

@@ -67,6 +67,8 @@ OPTIONS = [
     option("list too short", "-solid_shape sphere -solid_center 1,2", "-solid_center"),
     option("list of words", "-solid_shape sphere -solid_center a,b,c", "-solid_center"),
     option("shape unknown", "-solid_shape torsu", "torsu", "torus"),
+    option("kinematics unknown", "-solid_kinematics refmap", "refmap",
+           "log_conformation, left_cauchy_green, reference_map"),
     option("axis and angle", "-solid_shape disk -solid_axis 1,0,0 -solid_angle 30", "-solid_axis",
            "-solid_angle"),
     option("tube wider than its ring", "-solid_shape torus -solid_major_radius 0.1",

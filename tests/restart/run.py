@@ -3,8 +3,9 @@
 
     run.py SOURCE DRIVERS FOLDER RANKS [MPIEXEC...]
 
-The soft torus in the pipe and the soft disc in the cavity, coarse. On the same ranks the tables (but
-for the columns of wall time) and the last checkpoint are equal byte for byte.
+The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, coarse.
+On the same ranks the tables (but for the columns of wall time) and the last checkpoint are equal byte
+for byte.
 """
 import csv
 import glob
@@ -21,6 +22,9 @@ CASES = {
               ["-time_end", "0.8", "-checkpoint_interval", "0.05", "-output_interval", "0.2"]),
     "disc": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
              ["-time_end", "8", "-checkpoint_interval", "0.5", "-output_interval", "2"]),
+    "map": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
+            ["-time_end", "8", "-checkpoint_interval", "0.5", "-output_interval", "2",
+             "-solid_kinematics", "reference_map"]),
 }
 KILLS = 5
 

@@ -39,6 +39,11 @@ struct Full {
     for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set(c, B(mesh.C[c]), 1);
     kinematics.resume(alpha);
   }
+  /// Of a reference map: where what is at x came from.
+  void set_map(const std::function<Vec3(const Vec3&)>& xi) {
+    for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set_map(c, xi(mesh.C[c]));
+    kinematics.resume(alpha);
+  }
   void step(Real dt) {
     kinematics.mark(alpha);
     kinematics.transport(alpha, {phi, u, L, stencil, weights}, dt, grad);

@@ -1,0 +1,32 @@
+#pragma once
+// The limiter of the solid's transport.
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi::solid {
+
+/// Limited half step from the upwind value: with r = 2 slope / step - 1 the upwind over the
+/// downwind difference, slope that of the upwind cell's gradient,
+///   max(0, min(2 r, (2 + r) / 3, 2)) step / 2                                       [Koren93]
+/// third order on smooth profiles of a uniform mesh.
+inline Real koren(Real step, Real slope) {
+  const Real upwind = 2 * slope - step;
+  if (upwind * step <= 0) return 0;
+  const Real size =
+      std::min({2 * std::abs(upwind), std::abs(step + 2 * slope) / 3, 2 * std::abs(step)});
+  return std::copysign(size / 2, step);
+}
+
+/// The same component by component.
+inline Vec3 koren(const Vec3& step, const Vec3& slope) {
+  return {koren(step.x, slope.x), koren(step.y, slope.y), koren(step.z, slope.z)};
+}
+inline SymTensor koren(const SymTensor& step, const SymTensor& slope) {
+  return {koren(step.xx, slope.xx), koren(step.xy, slope.xy), koren(step.xz, slope.xz),
+          koren(step.yy, slope.yy), koren(step.yz, slope.yz), koren(step.zz, slope.zz)};
+}
+
+}  // namespace fsi::solid

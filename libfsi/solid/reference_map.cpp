@@ -1,0 +1,161 @@
+#include "libfsi/solid/reference_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/eigen.hpp"
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solid/koren.hpp"
+
+namespace fsi::solid {
+namespace {
+
+Real largest_rate(const Tensor& L) {
+  return std::max({2 * std::abs(L.xx), 2 * std::abs(L.yy), 2 * std::abs(L.zz),
+                   std::abs(L.xy + L.yx), std::abs(L.xz + L.zx), std::abs(L.yz + L.zy)});
+}
+
+}  // namespace
+
+ReferenceMap::ReferenceMap(const Mesh& mesh)
+    : d(mesh),
+      is_set(mesh, 1),
+      mesh_(mesh),
+      stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
+      known_(mesh),
+      extension_(mesh),
+      filled_(mesh),
+      slope_(mesh) {}
+
+void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
+  d.fill({});
+  is_set.fill(1);
+  resume(alpha);
+}
+
+void ReferenceMap::set(Index /*c*/, const SymTensor& /*B*/, Real /*alpha*/) {
+  throw Error(Kind::input, "reference_map: B alone does not tell a map; give the map itself");
+}
+
+void ReferenceMap::resume(const CellField<Real>& alpha) {
+  mark(alpha);
+  extend();
+}
+
+void ReferenceMap::mark(const CellField<Real>& alpha) {
+  for (Index c = 0; c < mesh_.n_cells; ++c) filled_[c] = is_set[c] > 0 ? alpha[c] : 0;
+  known_.rebuild(filled_, alpha_known);
+}
+
+Tensor ReferenceMap::gradient_of_map(Index c) const {
+  Tensor g = slope_[c];
+  g.xx += 1, g.yy += 1, g.zz += 1;
+  return g;
+}
+
+Tensor ReferenceMap::gradient(Index c) const {
+  Tensor sum;
+  if (static_cast<int>(mesh_.cell_faces[c].size()) <= mesh_.dim + 1)
+    return extension_.regression(c);
+  for (const Index f : mesh_.cell_faces[c]) {
+    if (f >= mesh_.n_internal) return extension_.regression(c);
+    const bool owner = mesh_.owner[f] == c;
+    const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
+    sum += outer(d[n] - d[c], owner ? stencil_.owner[f] : stencil_.neighbour[f]);
+  }
+  return sum;
+}
+
+void ReferenceMap::extend() {
+  for (const Index c : extension_.inside()) slope_[c] = {};
+  for (const Index c : extension_.last_ring()) slope_[c] = {};
+  extension_.apply(d, is_set, known_);
+  for (const Index c : extension_.inside()) slope_[c] = gradient(c);
+  for (const Index c : extension_.last_ring()) slope_[c] = extension_.slope(c);
+  mesh_.halo.update(slope_);
+}
+
+Vec3 ReferenceMap::face_value(Index f, Index c, const Carrier& carrier, Real dt) const {
+  // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
+  //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
+  // with u_f linear between the cells and along the skewness, at boundaries from the cell.
+  const auto back = [&](Index up, const Vec3& u) { return (dt / 2) * (u + dot(slope_[up], u)); };
+  if (f >= mesh_.n_internal) {
+    const Vec3 r = mesh_.Cf[f] - mesh_.C[c];
+    return d[c] + dot(slope_[c], r) - back(c, carrier.u[c] + dot(carrier.L[c], r));
+  }
+  const FaceWeights& weights = carrier.weights;
+  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  const bool forward = carrier.phi[f] >= 0;
+  const Index up = forward ? P : N, down = forward ? N : P;
+  const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
+  const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
+  Vec3 face = d[up] + (2 * share) * koren(d[down] - d[up], dot(slope_[up], way));
+  Vec3 u = (1 - share) * carrier.u[up] + share * carrier.u[down];
+  if (weights.skewed) {
+    face += dot(slope_[up], weights.skew[f]);
+    u += dot(carrier.L[c], weights.skew[f]);
+  }
+  return face - back(up, u);
+}
+
+Real ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
+                             CellField<SymGradient>& /*grad*/) {
+  new_.clear();
+  Real fastest = 0;
+  for (const Index c : known_.core()) {
+    // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
+    // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
+    // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
+    // the step.
+    Vec3 sum, off;
+    for (const Index f : mesh_.cell_faces[c]) {
+      const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
+      const Real phi = outward ? carrier.phi[f] : -carrier.phi[f];
+      const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
+      const Real linear = dot(dot(carrier.L[c], r), mesh_.Sf[f]);
+      sum += phi * (r + face_value(f, c, carrier, dt) - d[c]);
+      off += (outward ? linear : -linear) * r;
+    }
+    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(carrier.L[c], off));
+    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum);
+    fastest = std::max(fastest, largest_rate(carrier.L[c]));
+  }
+  const std::vector<Index>& core = known_.core();
+  for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
+  extend();
+  if (!all_of_ranks(!folded()))
+    throw Error(Kind::numerics, "the reference map folds: det grad xi <= 0");
+  return fastest;
+}
+
+bool ReferenceMap::folded() const {
+  return std::ranges::any_of(known_.core(), [&](Index c) { return !(volume_ratio(c) > 0); });
+}
+
+Real ReferenceMap::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
+                         const CellField<Real>& alpha, std::span<const Index> cells) const {
+  Real least = 1;
+  for (const Index c : cells) {
+    B[c] = this->B(c, alpha[c]);
+    const Eigen e = eigen(B[c]);
+    if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
+    lambda[c] = e.value[2];
+  }
+  return least;
+}
+
+SymTensor ReferenceMap::B(Index c, Real /*alpha*/) const {
+  // B = (grad xi)^-1 (grad xi)^-T / det^(1/dim) of the same
+  const Tensor A = gradient_of_map(c);
+  const Real J = det(A);
+  if (!(J > 0)) return identity();
+  const Tensor F = inverse(A);
+  const Vec3 x{F.xx, F.xy, F.xz}, y{F.yx, F.yy, F.yz}, z{F.zx, F.zy, F.zz};
+  const SymTensor b{dot(x, x), dot(x, y), dot(x, z), dot(y, y), dot(y, z), dot(z, z)};
+  if (mesh_.dim == 2) return {J * b.xx, J * b.xy, 0, J * b.yy, 0, 1};
+  return std::cbrt(J * J) * b;
+}
+
+}  // namespace fsi::solid

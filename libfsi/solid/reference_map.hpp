@@ -1,0 +1,84 @@
+#pragma once
+// Kinematics of the solid: transport of the reference map, where each particle once was.
+
+#include <span>
+#include <vector>
+
+#include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/map_extension.hpp"
+
+namespace fsi::solid {
+
+/// The map xi(x, t) tells from where the particle at x came:            [Kamrin12]
+///   d xi/dt + u . grad xi = 0,   F = (grad xi)^-1,   B = F F^T
+/// Stored is d = xi - x, which goes on through a period of the mesh. Works on the cells that the
+/// solid fills by alpha_known or more; the cells around get d by MapExtension. One step over dt
+/// with phi and u frozen: face values by Koren's limiter, taken half a step back along the
+/// particle's path. grad xi is the library's gradient over known and extended cells; B is divided
+/// by (det B)^(1/dim), the error of volume that the map's transport leaves. Nothing relaxes: what
+/// returns to its place is undeformed again.
+class ReferenceMap {
+ public:
+  explicit ReferenceMap(const Mesh& mesh);
+
+  /// Below this fraction a cell carries no stress: round-off of the interface.
+  static constexpr Real alpha_min = 1e-9;
+  /// Where in a step the solid stands when the momentum equation is solved.
+  static constexpr Real ahead = 0.5;
+  /// Whether B is known around the solid as well.
+  static constexpr bool extended = true;
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  static constexpr Real elastic_number = 2;
+
+  /// xi = x.
+  void set_undeformed(const CellField<Real>& alpha);
+  /// Renews what follows from d and alpha: after these were changed from outside. Collective.
+  void resume(const CellField<Real>& alpha);
+
+  /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
+  void mark(const CellField<Real>& alpha);
+  /// Owned cells on which `transport` reads L.
+  std::span<const Index> strained() const { return known_.core(); }
+
+  /// Collective, after `mark` with the same alpha. On return d is set on owned cells and halo, zero
+  /// far from the solid. grad: not used. Returns the largest rate of log B following the solid over
+  /// this rank's cells. Errors: Error{numerics} where the map folds, det grad xi <= 0.
+  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                 CellField<SymGradient>& grad);
+
+  /// B alone does not tell a map. Errors: always Error{input}.
+  void set(Index c, const SymTensor& B, Real alpha);
+  /// Sets where the particle at the centre of the cell came from; then `resume`.
+  void set_map(Index c, const Vec3& xi) { d[c] = xi - mesh_.C[c], is_set[c] = 1; }
+
+  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// eigenvalue of B among those with solid, at most 1.
+  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
+             std::span<const Index> cells) const;
+  /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
+  SymTensor B(Index c, Real alpha) const;
+  /// det grad xi of a cell: 1 but for the error of volume.
+  Real volume_ratio(Index c) const { return det(gradient_of_map(c)); }
+
+  CellField<Vec3> d;       ///< xi - x
+  CellField<Real> is_set;  ///< 1 where d is set, else 0
+
+ private:
+  Tensor gradient_of_map(Index c) const;
+  /// The upwind value of d at face f half a step back along the particle's path.
+  Vec3 face_value(Index f, Index c, const Carrier& carrier, Real dt) const;
+  Tensor gradient(Index c) const;
+  void extend();
+  bool folded() const;
+
+  const Mesh& mesh_;
+  GradientStencil stencil_;
+  Band known_;
+  MapExtension extension_;
+  CellField<Real> filled_;   // alpha where d is set
+  CellField<Tensor> slope_;  // grad d
+  std::vector<Vec3> new_;    // beside the list of cells worked on
+};
+
+}  // namespace fsi::solid
