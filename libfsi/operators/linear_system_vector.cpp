@@ -1,5 +1,6 @@
 #include "libfsi/operators/linear_system_vector.hpp"
 
+#include <petsc/private/petscimpl.h>
 #include <petscksp.h>
 
 #include <algorithm>
@@ -140,8 +141,8 @@ VectorSystem& VectorSystem::operator=(VectorSystem&&) noexcept = default;
 VectorMatrix& VectorSystem::matrix() { return handles_->op.matrix; }
 
 void VectorSystem::renewed() {
-  FSI_PETSC(MatAssemblyBegin(handles_->shell, MAT_FINAL_ASSEMBLY));
-  FSI_PETSC(MatAssemblyEnd(handles_->shell, MAT_FINAL_ASSEMBLY));
+  // Tells the preconditioner, which otherwise keeps the first diagonal.
+  FSI_PETSC(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(handles_->shell)));
 }
 
 Solve VectorSystem::solve(std::span<Real> x, std::span<Real> b) {

@@ -25,6 +25,8 @@ OF_THE_RUN = {"wall_per_step", "pressure_iterations", "divergence_max", "oversho
               "det_B_max", "min_eig_B"}
 # The axis of a round solid has no direction of its own.
 AXIS = {"nx", "ny", "nz", "angle", "taylor_angle"}
+# Where a section passes a corner of a cell it gains a piece: 1e-8 in the surface, 1e-3 in this angle.
+SECTIONS = {"bending_meridian"}
 ROUND = {"cavity_disc", "shear", "stenosis_sphere", "vortex"}
 failures = []
 
@@ -113,7 +115,8 @@ def main():
     for file in ("flow.csv", "solid.csv"):
         if os.path.exists(os.path.join(one, file)):
             for out in many.values():
-                compare(file, one, out, TOLERANCE, OF_THE_RUN | (AXIS if name in ROUND else set()))
+                compare(file, one, out, TOLERANCE,
+                        OF_THE_RUN | SECTIONS | (AXIS if name in ROUND else set()))
             compare(file, one, again, 0, {"wall_per_step"})
     run(["/usr/bin/python3", os.path.join(source, "examples", "draw.py"), one])
     for picture in ("series.png", "flow.png"):
