@@ -23,7 +23,7 @@ CASES = {
     "disc": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
              ["-time_end", "8", "-checkpoint_interval", "0.5", "-output_interval", "2"]),
     "map": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
-            ["-time_end", "8", "-checkpoint_interval", "0.5", "-output_interval", "2",
+            ["-time_end", "4", "-checkpoint_interval", "0.5", "-output_interval", "2",
              "-solid_kinematics", "reference_map"]),
 }
 KILLS = 5
