@@ -42,6 +42,7 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     kappa[f] = share * solid.dt * solid.G * l;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];
+    if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     if (simplex_) {
