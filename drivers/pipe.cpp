@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
-  const Case which = read_case(options, "pipe");
+  const Case which = read_case(options, "pipe", {1, 0, 0});
   const Real mean = options.real("flow_mean_velocity", 0.5,
                                  {.help = "along x, held exactly", .unit = "velocity"});
   if (options.help()) return Ending::complete;

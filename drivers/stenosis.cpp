@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
-  const Case which = read_case(options, "stenosis");
+  const Case which = read_case(options, "stenosis", {1, 0, 0});
   const Real p_in = options.real("inlet_pressure", 5.5,
                                  {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
   if (options.help()) return Ending::complete;

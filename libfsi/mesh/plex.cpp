@@ -245,7 +245,7 @@ void broadcast_common(const CellList& whole, CellList& mine) {
 
 }  // namespace
 
-CellList distribute(CellList whole, const std::string& partitioner) {
+CellList distribute(CellList whole, const std::string& partitioner, const Vec3& along) {
   require(partitioner == "metis" || partitioner == "ptscotch" || partitioner == "simple",
           "partitioner \"" + partitioner + "\" unknown; there are: metis, ptscotch, simple");
   if (ranks() == 1) return whole;
@@ -254,7 +254,8 @@ CellList distribute(CellList whole, const std::string& partitioner) {
   whole.dim = mine.dim;
   Share share;
   {
-    const auto [plex, origin] = divide(serial_plex(whole), partition_cells(whole, partitioner));
+    const auto [plex, origin] =
+        divide(serial_plex(whole), partition_cells(whole, partitioner, along));
     share = share_of(plex, origin);
   }
   pull_cells(whole, share.file_cell, mine);

@@ -14,6 +14,7 @@ struct MeshOptions {
   std::vector<std::string>
       periodic;  ///< pairs of physical names joined by translation: a, b[, c, d ...]
   std::string partitioner = "metis";  ///< or ptscotch, simple
+  Vec3 along = {};                    ///< direction that metis avoids to cut across; zero: none
 };
 
 /// Collective. Reads, checks, partitions and flattens the mesh. Errors: Error{input}, one sentence

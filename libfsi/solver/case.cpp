@@ -14,7 +14,7 @@
 namespace fsi {
 namespace {
 
-MeshOptions read_mesh_options(Options& options) {
+MeshOptions read_mesh_options(Options& options, const Vec3& path) {
   MeshOptions mesh;
   mesh.file = options.text("mesh", "", "gmsh file, 2.2 or 4.x; a 2-D mesh makes a 2-D run");
   mesh.periodic =
@@ -22,6 +22,11 @@ MeshOptions read_mesh_options(Options& options) {
   mesh.partitioner =
       options.choice("petscpartitioner_type", "metis", {"metis", "ptscotch", "simple"},
                      "how the mesh is divided among ranks");
+  if (mesh.partitioner == "metis")
+    mesh.along = options.vec3("mesh_divide_along", path,
+                              {.help = "direction the solid travels in: the mesh is divided "
+                                       "lengthwise, so that ranks share the solid; 0,0,0: none",
+                               .unit = ""});
   return mesh;
 }
 
@@ -90,9 +95,9 @@ bool of_undeformed_solid(const std::string& name) {
 
 }  // namespace
 
-Case read_case(Options& options, const std::string& driver) {
+Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   Case result;
-  result.mesh = read_mesh_options(options);
+  result.mesh = read_mesh_options(options, path);
   result.physics = read_physics(options);
   result.solid = read_solid(options, result.physics);
   result.time = read_time(options);

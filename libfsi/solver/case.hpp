@@ -47,8 +47,9 @@ struct Case {
 /// Reads the solid's options; sets mu_s and G. Errors: Error{input}.
 SolidSetup read_solid(Options& options, Physics& physics);
 
-/// Reads and checks the common options. Errors: Error{input}.
-Case read_case(Options& options, const std::string& driver);
+/// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the
+/// default of -mesh_divide_along. Errors: Error{input}.
+Case read_case(Options& options, const std::string& driver, const Vec3& path = {});
 
 /// What is simulated, a line "name value" an option: all but those of mesh, time and output.
 std::string simulated(const Options& options);

@@ -61,6 +61,8 @@ OPTIONS = [
     option("interval negative", "-sample_interval -1", "-sample_interval", ">= 0"),
     option("partitioner unknown", "-petscpartitioner_type scotsch", "-petscpartitioner_type",
            "scotsch", "metis, ptscotch, simple"),
+    option("way of division without its partitioner",
+           "-petscpartitioner_type simple -mesh_divide_along 1,0,0", "-mesh_divide_along"),
     option("option of another driver", "-inlet_pressure 5", "-inlet_pressure"),
     option("option twice", "-time_end 1 -time_end 2", "-time_end", "twice"),
     option("stray word", "0.5", "0.5"),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -123,6 +124,27 @@ TEST(Division, PeriodsOfTheFile) {
 TEST(Division, OtherPartitioners) {
   compare(block_of(CellType::tet), 1, "ptscotch");
   compare(block_of(CellType::hex), 1, "simple");
+}
+
+/// The least share of a layer of cells across x that a rank owns, in parts of an even share.
+Real least_share(const Mesh& mesh, int layers) {
+  std::vector<Real> mine(static_cast<std::size_t>(layers), 0);
+  for (Index c = 0; c < mesh.n_owned; ++c) mine[static_cast<int>(mesh.C[c].x * layers)] += 1;
+  const Real even = static_cast<Real>(mesh.n_global) / (layers * ranks());
+  return global_min(*std::ranges::min_element(mine) / even);
+}
+
+TEST(Division, LengthwiseEveryRankHasCellsAllAlong) {
+  Block block;
+  block.n = {24, 6, 6};
+  const TextFile file(BlockText(block).text());
+  for (const auto& periodic : {std::vector<std::string>{}, {"left", "right"}}) {
+    const Mesh lengthwise = read_mesh({file.path(), periodic, "metis", {2, 0, 0}});
+    EXPECT_GT(least_share(lengthwise, 24), 0.8);
+    if (ranks() > 1) {
+      EXPECT_EQ(least_share(divided(file.path(), periodic), 24), 0);
+    }
+  }
 }
 
 TEST(Division, FewerCellsThanRanks) {
