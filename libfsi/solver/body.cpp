@@ -59,7 +59,10 @@ void Body::weigh() {
         eigenvalue_min = k.weigh(B, lambda, alpha, k.extended ? band.cells() : band.core());
       },
       kinematics);
-  if (extended()) vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
+  if (extended())
+    vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
+  else
+    vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   mesh.halo.update(B);
   mesh.halo.update(lambda);
 }

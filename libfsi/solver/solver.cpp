@@ -91,6 +91,8 @@ void Solver::step(Real dt) {
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
                           // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
+  if (physics_.solid_acceleration != Vec3{})
+    body_force_.emplace(mesh_, physics_.rho * physics_.solid_acceleration);
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
     stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
   }
@@ -165,8 +167,9 @@ void Solver::set_elastic_force() {
                                  body_->extended() ? &body_->alpha_f : nullptr};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
-  solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
-                        body_->band.core());
+  if (body_force_)
+    body_force_->apply(force_, balance_, body_->alpha_f, weights_, projection_.stencil(),
+                       body_->band);
 }
 
 void Solver::predict_momentum(Real dt) {

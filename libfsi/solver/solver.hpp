@@ -15,6 +15,7 @@
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/solid/body_force.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
 
@@ -169,3 +170,4 @@ class Solver {
 };
 
 }  // namespace fsi
+  std::optional<solid::BodyForce> body_force_;  // where there is one
