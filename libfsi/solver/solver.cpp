@@ -28,6 +28,19 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       weights_(mesh),
       state_(mesh),
       u_b_(mesh),
+Solver::Calls::Calls(Profile& profile)
+    : update_gradients(profile.add("update_gradients", "momentum")),
+      advance_interface(profile.add("advance_interface", "vof")),
+      transport_elastic(profile.add("transport_elastic", "solid")),
+      mix_viscosity(profile.add("mix_viscosity", "solid")),
+      set_elastic_force(profile.add("set_elastic_force", "solid")),
+      stiffen(profile.add("stiffen", "solid")),
+      predict_momentum(profile.add("predict_momentum", "momentum")),
+      predict_flux(profile.add("predict_flux", "flux")),
+      project(profile.add("project", "pressure")),
+      hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
+      check(profile.add("check", "flux")) {}
+
       u_b_new_(mesh),
       p_b_(mesh),
       grad_p_(mesh),
@@ -42,11 +55,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f),
-      vof_phase_(profile_.add("vof")),
-      solid_phase_(profile_.add("solid")),
-      momentum_phase_(profile_.add("momentum")),
-      flux_phase_(profile_.add("flux")),
-      pressure_phase_(profile_.add("pressure")) {
+      calls_(profile_) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
   if (physics.mu_s > 2 * physics.mu_f || physics.mu_f > 2 * physics.mu_s) momentum_.theta = 1;
@@ -106,7 +115,7 @@ void Solver::step(Real dt) {
 }
 
 void Solver::update_gradients() {
-  const Profile::Phase phase(profile_, momentum_phase_);
+  const Profile::Call call(profile_, calls_.update_gradients);
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
@@ -120,7 +129,7 @@ void Solver::synchronise() {
 }
 
 void Solver::advance_interface(Real t) {
-  const Profile::Phase phase(profile_, vof_phase_);
+  const Profile::Call call(profile_, calls_.advance_interface);
   solid_dt_ = t - body_->t;
   body_->t = t;
   body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u, solid_dt_,
@@ -129,7 +138,7 @@ void Solver::advance_interface(Real t) {
 }
 
 void Solver::transport_elastic() {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.transport_elastic);
   const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
   std::visit(
       [&](auto& k) {
@@ -150,10 +159,11 @@ void Solver::mix_viscosity() {
 }
 
 void Solver::stiffen(Real dt) {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.set_elastic_force);
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
+  const Profile::Call call(profile_, calls_.mix_viscosity);
     mesh_.halo.update(L_);
   }
   body_->stiffness.apply(
@@ -162,7 +172,7 @@ void Solver::stiffen(Real dt) {
 }
 
 void Solver::set_elastic_force() {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.stiffen);
   const solid::Strained strained{body_->B, body_->alpha,
                                  body_->extended() ? &body_->alpha_f : nullptr};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
@@ -173,7 +183,7 @@ void Solver::set_elastic_force() {
 }
 
 void Solver::predict_momentum(Real dt) {
-  const Profile::Phase phase(profile_, momentum_phase_);
+  const Profile::Call call(profile_, calls_.predict_momentum);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
@@ -182,7 +192,7 @@ void Solver::predict_momentum(Real dt) {
 }
 
 void Solver::predict_flux(Real dt) {
-  const Profile::Phase phase(profile_, flux_phase_);
+  const Profile::Call call(profile_, calls_.predict_flux);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const flow::FluxTerms terms{
       state_.p, grad_p_, p_b_, L_, balance_, mu_, kappa_, momentum_.theta_at(dt), physics_.rho, dt};
@@ -190,7 +200,7 @@ void Solver::predict_flux(Real dt) {
 }
 
 void Solver::project(Real dt) {
-  const Profile::Phase phase(profile_, pressure_phase_);
+  const Profile::Call call(profile_, calls_.project);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   const Solve solve =
       projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
@@ -203,11 +213,12 @@ void Solver::project(Real dt) {
 }
 
 void Solver::hold_mean_velocity(Real dt) {
-  const Profile::Phase phase(profile_, flux_phase_);
+  const Profile::Call call(profile_, calls_.hold_mean_velocity);
   if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
 }
 
-void Solver::check() const {
+void Solver::check() {
+  const Profile::Call call(profile_, calls_.check);
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)

@@ -136,7 +136,7 @@ class Solver {
   void predict_flux(Real dt);
   void project(Real dt);
   void hold_mean_velocity(Real dt);
-  void check() const;
+  void check();
   std::string objection(Real dt) const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   /// Whether the momentum equation needs the velocity gradient everywhere.
@@ -146,6 +146,12 @@ class Solver {
 
   const Mesh& mesh_;
   Physics physics_;
+  /// Numbers in profile_ of what a step calls.
+  struct Calls {
+    explicit Calls(Profile& profile);
+    int update_gradients, advance_interface, transport_elastic, mix_viscosity, set_elastic_force,
+        stiffen, predict_momentum, predict_flux, project, hold_mean_velocity, check;
+  };
   std::vector<Condition> conditions_;
   FaceWeights weights_;
   State state_;
@@ -166,7 +172,7 @@ class Solver {
   Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;
-  int vof_phase_, solid_phase_, momentum_phase_, flux_phase_, pressure_phase_;
+  Calls calls_;
 };
 
 }  // namespace fsi
