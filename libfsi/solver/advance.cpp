@@ -36,12 +36,14 @@ std::string Solver::objection(Real dt) const {
   return "";
 }
 
+void Solver::hold_backup() {
+  io::Snapshot state;
+  list(state);
+  backup_.emplace(state, mesh_);
+}
+
 Real Solver::advance(Real dt) {
-  if (!backup_) {
-    io::Snapshot state;
-    list(state);
-    backup_.emplace(state, mesh_);
-  }
+  if (!backup_) hold_backup();
   backup_->keep();
   // After a rejected step the next ones grow by a tenth each.
   constexpr Real growth = 1.1, none = std::numeric_limits<Real>::max();

@@ -85,6 +85,7 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   body_->t = state_.t;
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
+  hold_backup();
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
                                            std::to_string(-body_->filled.clearance) +
                                            ": move it or make it smaller");
@@ -98,6 +99,7 @@ void Solver::step(Real dt) {
                                                         //            [Matsumiya25] (5)
     transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
+  hold_backup();
                           // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
   if (physics_.solid_acceleration != Vec3{})

@@ -143,9 +143,7 @@ class Solver {
   bool needs_L() const { return weights_.skewed || weights_.non_orthogonal || mu_varies(); }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
-
-  const Mesh& mesh_;
-  Physics physics_;
+  void hold_backup();
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
