@@ -70,7 +70,7 @@ void Body::weigh() {
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
   snapshot.add("solid_t", &t);
-  snapshot.add("solid_strain_rate", &strain_rate);
+  snapshot.add("solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
   if (auto* k = std::get_if<solid::ReferenceMap>(&kinematics)) {

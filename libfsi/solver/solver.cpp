@@ -19,15 +19,15 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
   return std::vector<bool>(conditions.size(), true);  // zero-gradient values count as well
 }
 
+/// (1 / 2V) sum |phi| of a cell.
+Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
+  Real sum = 0;
+  for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
+  return sum / (2 * mesh.V[c]);
+}
+
 }  // namespace
 
-Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
-    : mesh_(mesh),
-      physics_(physics),
-      conditions_(resolve(setup.conditions, mesh)),
-      weights_(mesh),
-      state_(mesh),
-      u_b_(mesh),
 Solver::Calls::Calls(Profile& profile)
     : update_gradients(profile.add("update_gradients", "momentum")),
       advance_interface(profile.add("advance_interface", "vof")),
@@ -41,6 +41,13 @@ Solver::Calls::Calls(Profile& profile)
       hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
       check(profile.add("check", "flux")) {}
 
+Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
+    : mesh_(mesh),
+      physics_(physics),
+      conditions_(resolve(setup.conditions, mesh)),
+      weights_(mesh),
+      state_(mesh),
+      u_b_(mesh),
       u_b_new_(mesh),
       p_b_(mesh),
       grad_p_(mesh),
@@ -78,18 +85,21 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
     forcing_->gradient = 0;
   }
+  hold_backup();
 }
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   body_.emplace(mesh_, weights_, shape, physics_.G, kind);
   body_->t = state_.t;
+  if (physics_.solid_acceleration != Vec3{})
+    body_force_.emplace(mesh_, physics_.rho * physics_.solid_acceleration);
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
-  hold_backup();
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
                                            std::to_string(-body_->filled.clearance) +
                                            ": move it or make it smaller");
   mix_viscosity();
+  hold_backup();
 }
 
 void Solver::step(Real dt) {
@@ -99,11 +109,8 @@ void Solver::step(Real dt) {
                                                         //            [Matsumiya25] (5)
     transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
-  hold_backup();
                           // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
-  if (physics_.solid_acceleration != Vec3{})
-    body_force_.emplace(mesh_, physics_.rho * physics_.solid_acceleration);
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
     stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
   }
@@ -149,23 +156,23 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
-        body_->strain_rate = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
   body_->weigh();
 }
 
 void Solver::mix_viscosity() {
+  const Profile::Call call(profile_, calls_.mix_viscosity);
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
 }
 
 void Solver::stiffen(Real dt) {
-  const Profile::Call call(profile_, calls_.set_elastic_force);
+  const Profile::Call call(profile_, calls_.stiffen);
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
-  const Profile::Call call(profile_, calls_.mix_viscosity);
     mesh_.halo.update(L_);
   }
   body_->stiffness.apply(
@@ -174,7 +181,7 @@ void Solver::stiffen(Real dt) {
 }
 
 void Solver::set_elastic_force() {
-  const Profile::Call call(profile_, calls_.stiffen);
+  const Profile::Call call(profile_, calls_.set_elastic_force);
   const solid::Strained strained{body_->B, body_->alpha,
                                  body_->extended() ? &body_->alpha_f : nullptr};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
@@ -231,13 +238,21 @@ void Solver::check() {
 
 Real Solver::advective_dt(Real courant) const {
   Real rate = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c) {
-    Real sum = 0;
-    for (const Index f : mesh_.cell_faces[c]) sum += std::abs(state_.phi[f]);
-    rate = std::max(rate, sum / (2 * mesh_.V[c]));
-  }
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::carried_dt() const {
+  Real rate = 0;
+  if (body_)
+    for (const Index c : body_->band.cells())
+      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+  rate = global_max(rate);
+  // body.t + solid_dt = t + ahead dt
+  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()
+                  : std::numeric_limits<Real>::max();
 }
 
 Real Solver::boundary_dt(Real courant) const {
@@ -260,7 +275,7 @@ Real Solver::elastic_dt() const {
 }
 
 Real Solver::strain_dt(Real strain) const {
-  const Real rate = global_max(body_ ? body_->strain_rate : 0);
+  const Real rate = global_max(body_ ? body_->strain.rate : 0);
   return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 

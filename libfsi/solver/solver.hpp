@@ -94,6 +94,9 @@ class Solver {
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
+  /// Collective. Largest dt that moves the solid by a Courant number of one at most: it stands
+  /// between two steps and goes on by half of this and half of the last one.
+  Real carried_dt() const;
   /// Collective. Largest dt in which nothing that moves at a boundary passes more than `courant` of
   /// the cell beside it: what is known of the flow before the first step.
   Real boundary_dt(Real courant) const;
@@ -150,6 +153,9 @@ class Solver {
     int update_gradients, advance_interface, transport_elastic, mix_viscosity, set_elastic_force,
         stiffen, predict_momentum, predict_flux, project, hold_mean_velocity, check;
   };
+
+  const Mesh& mesh_;
+  Physics physics_;
   std::vector<Condition> conditions_;
   FaceWeights weights_;
   State state_;
@@ -164,6 +170,7 @@ class Solver {
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
+  std::optional<solid::BodyForce> body_force_;  // where there is one
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
@@ -174,4 +181,3 @@ class Solver {
 };
 
 }  // namespace fsi
-  std::optional<solid::BodyForce> body_force_;  // where there is one
