@@ -13,8 +13,8 @@ struct RingFrame {
 
 /// The frame of a ring with axis n. zeta is the previous one turned the short way with the axis; at
 /// first (zero) it is the z axis made perpendicular to n, or the y axis where n is along z. For a
-/// ring tilted by psi in the x-y plane, n = (cos psi, sin psi, 0): zeta = z, eta = (sin psi, -cos
-/// psi, 0), downstream in a flow along x.
+/// ring tilted by an angle a in the x-y plane, n = (cos a, sin a, 0): zeta = z, eta = (sin a, -cos
+/// a, 0), downstream in a flow along x.
 RingFrame ring_frame(const Vec3& n, const Vec3& previous_zeta = {});
 
 /// Shape of a ring. Aspect ratios are minor / major axis of the least-squares ellipse, 1 for a

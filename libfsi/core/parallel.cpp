@@ -2,6 +2,9 @@
 
 #include <petscsys.h>
 
+#include <array>
+#include <cstddef>
+#include <memory_resource>
 #include <vector>
 
 namespace fsi {
@@ -49,7 +52,12 @@ Real Sum::total() const {
 
 void Sum::totals(std::span<Real> items, std::span<const Sum> parts) {
   const std::size_t n = parts.size();
-  std::vector<Real> mine(2 * n), all(2 * n * static_cast<std::size_t>(ranks()));
+  // On the stack, but for thousands of ranks: sums are taken in every step.
+  constexpr std::size_t bytes = 32768;
+  alignas(Real) std::array<std::byte, bytes> room;  // NOLINT: left unset
+  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+  std::pmr::vector<Real> mine(2 * n, &memory);
+  std::pmr::vector<Real> all(2 * n * static_cast<std::size_t>(ranks()), &memory);
   for (std::size_t i = 0; i < n; ++i) mine[2 * i] = parts[i].high_, mine[2 * i + 1] = parts[i].low_;
   const int count = static_cast<int>(2 * n);
   MPI_Allgather(mine.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, comm());

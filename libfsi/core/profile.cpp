@@ -7,7 +7,7 @@
 
 namespace fsi {
 
-int Profile::add(const std::string& name) {
+int Profile::add(const std::string& name, const std::string& phase) {
   const std::string title = "fsi " + name;
   PetscLogEvent event = -1;
   FSI_PETSC(PetscLogEventGetId(title.c_str(), &event));
@@ -16,23 +16,23 @@ int Profile::add(const std::string& name) {
     FSI_PETSC(PetscClassIdRegister("fsi", &class_id));
     FSI_PETSC(PetscLogEventRegister(title.c_str(), class_id, &event));
   }
-  items_.push_back({name, event, 0});
+  items_.push_back({phase, event, 0});
   return static_cast<int>(items_.size()) - 1;
 }
 
 std::map<std::string, Real> Profile::seconds() const {
   std::map<std::string, Real> result;
-  for (const Item& item : items_) result[item.name] += item.seconds;
+  for (const Item& item : items_) result[item.phase] += item.seconds;
   return result;
 }
 
-Profile::Phase::Phase(Profile& profile, int number)
+Profile::Call::Call(Profile& profile, int number)
     : profile_(profile), number_(number), start_(MPI_Wtime()) {
   FSI_PETSC(PetscLogEventBegin(profile_.items_[static_cast<std::size_t>(number_)].event, nullptr,
                                nullptr, nullptr, nullptr));
 }
 
-Profile::Phase::~Phase() {
+Profile::Call::~Call() {
   Item& item = profile_.items_[static_cast<std::size_t>(number_)];
   // A destructor cannot report a failed log call, and needs not.
   static_cast<void>(PetscLogEventEnd(item.event, nullptr, nullptr, nullptr, nullptr));

@@ -1,5 +1,5 @@
 #pragma once
-// Wall time by phase of the step: for the summary of a run and for PETSc's -log_view.
+// Wall time of a step's calls: by phase for the summary of a run, by call for PETSc's -log_view.
 
 #include <map>
 #include <string>
@@ -9,22 +9,23 @@
 
 namespace fsi {
 
-/// Named phases and the seconds spent in each.
+/// Named calls, the phase that each belongs to, and the seconds spent in each phase.
 class Profile {
  public:
-  /// Adds a phase, with a PETSc log event "fsi NAME" that all Profiles share; returns its number.
-  int add(const std::string& name);
+  /// Adds a call, with a PETSc log event "fsi NAME" that all Profiles share; returns its number.
+  int add(const std::string& name, const std::string& phase);
+  /// By phase.
   std::map<std::string, Real> seconds() const;
-  /// PETSc's number of a phase's log event.
+  /// PETSc's number of a call's log event.
   int event(int number) const { return items_[static_cast<std::size_t>(number)].event; }
 
-  /// Time between construction and destruction counts for the phase.
-  class Phase {
+  /// Time between construction and destruction counts for the call and its phase.
+  class Call {
    public:
-    Phase(Profile& profile, int number);
-    ~Phase();
-    Phase(const Phase&) = delete;
-    Phase& operator=(const Phase&) = delete;
+    Call(Profile& profile, int number);
+    ~Call();
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
 
    private:
     Profile& profile_;
@@ -34,7 +35,7 @@ class Profile {
 
  private:
   struct Item {
-    std::string name;
+    std::string phase;
     int event;
     Real seconds;
   };

@@ -1,6 +1,10 @@
 #include "libfsi/field/boundary.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
 
 namespace fsi {
 namespace {
@@ -22,6 +26,18 @@ std::string names(const Conditions& conditions) {
   return list;
 }
 
+/// A moving wall may slide only: largest part of its velocity through a face.
+void require_sliding(const Wall& wall, const Patch& patch, const Mesh& mesh) {
+  constexpr Real tolerance = 1e-6;
+  Real through = 0;
+  for (Index f = patch.begin; f < patch.end; ++f)
+    through = std::max(through, std::abs(dot(wall.velocity, mesh.Sf[f])) / norm(mesh.Sf[f]));
+  require(global_max(through) <= tolerance * norm(wall.velocity),
+          "patch \"" + patch.name +
+              "\" moves through itself: a wall with a velocity slides in its " +
+              "own plane or along a cylinder's axis; give the velocity of its faces instead");
+}
+
 }  // namespace
 
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
@@ -32,6 +48,7 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
             "patch \"" + patch.name + "\" of the mesh has no boundary condition in this driver, " +
                 "which knows: " + names(conditions) + "; rename it or join it by -mesh_periodic");
     result.push_back(found->second);
+    if (const auto* wall = std::get_if<Wall>(&found->second)) require_sliding(*wall, patch, mesh);
   }
   for (const auto& [name, condition] : conditions) {
     bool there = false;
@@ -49,17 +66,22 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
       for (Index f = begin; f < end; ++f) u_b[f - mesh.n_internal] = value(f, u[mesh.owner[f]]);
     };
     std::visit(
-        Overloaded{
-            [&](const Wall& wall) { set([&](Index, const Vec3&) { return wall.velocity; }); },
-            [&](const Slip&) {
-              set([&](Index f, const Vec3& u_P) {  // u_b = u_P - (u_P . n) n
-                return u_P - (dot(u_P, mesh.Sf[f]) / norm2(mesh.Sf[f])) * mesh.Sf[f];
-              });
-            },
-            [&](const FixedVelocity& fixed) {
-              set([&](Index f, const Vec3&) { return fixed.u(mesh.Cf[f], t); });
-            },
-            [&](const Opening&) { set([&](Index, const Vec3& u_P) { return u_P; }); }},
+        Overloaded{[&](const Wall& wall) {
+                     set([&](Index f,
+                             const Vec3&) {  // exactly along the face, as no flow goes through
+                       const Vec3& S = mesh.Sf[f];
+                       return wall.velocity - (dot(wall.velocity, S) / norm2(S)) * S;
+                     });
+                   },
+                   [&](const Slip&) {
+                     set([&](Index f, const Vec3& u_P) {  // u_b = u_P - (u_P . n) n
+                       return u_P - (dot(u_P, mesh.Sf[f]) / norm2(mesh.Sf[f])) * mesh.Sf[f];
+                     });
+                   },
+                   [&](const FixedVelocity& fixed) {
+                     set([&](Index f, const Vec3&) { return fixed.u(mesh.Cf[f], t); });
+                   },
+                   [&](const Opening&) { set([&](Index, const Vec3& u_P) { return u_P; }); }},
         conditions[i]);
   }
 }

@@ -11,7 +11,8 @@
 
 namespace fsi {
 
-/// A wall at rest or moving in its own plane: u = velocity, no flow through it.
+/// A wall at rest or sliding, in its own plane or along a cylinder: u = velocity, which has no part
+/// through a face.
 struct Wall {
   Vec3 velocity;
 };
@@ -31,7 +32,8 @@ using Condition = std::variant<Wall, Slip, FixedVelocity, Opening>;
 using Conditions = std::map<std::string, Condition>;
 
 /// The conditions of a mesh's patches, in their order.
-/// Errors: Error{input} where a patch has no condition or a condition no patch.
+/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, or a
+/// wall moves through itself.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Velocity on the boundary faces at time t. u: owned cells set.

@@ -7,10 +7,10 @@ namespace fsi::flow {
 Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity)
     : mesh_(mesh), axis_(axis / norm(axis)), target_(mean_velocity), u_1_(mesh), phi_1_(mesh) {
   for (Index f = 0; f < mesh.n_internal; ++f) phi_1_[f] = dot(axis_, mesh.Sf[f]);
-  CellField<Real> psi(mesh);
+  CellField<Real> potential(mesh);
   // Round-off is enough in a straight channel, where the uniform field is the answer itself.
   constexpr Real round_off = 1e-13;
-  projection.project(phi_1_, psi, u_1_, round_off * mesh.total_volume);
+  projection.project(phi_1_, potential, u_1_, round_off * mesh.total_volume);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = axis_ - u_1_[c];
   mean_1_ = mean(phi_1_);
 }

@@ -144,7 +144,8 @@ void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa,
 
 void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
                        const CellField<Vec3>& grad_p, const FaceField<Real>& mu,
-                       const Sources& sources, Real theta_now, Real dt) {
+                       const FaceField<Real>& kappa, const Sources& sources, Real theta_now,
+                       Real dt) {
   // Adams-Bashforth with variable step: E^(n+1/2) = E^n + r (E^n - E^(n-1)), r = dt / (2 dt_old)
   const Real r = dt_old > 0 ? dt / (2 * dt_old) : 0;
   for (Index c = 0; c < mesh_.n_owned; ++c)
@@ -153,7 +154,8 @@ void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
     const Index b = f - mesh_.n_internal;
     if (open_face_[b] == 0)
-      rhs_[mesh_.owner[f]] += theta_now * mu[f] * weights_.g[f] * (u_b_new[b] - u_b[b]);
+      rhs_[mesh_.owner[f]] +=
+          (theta_now * mu[f] + kappa[f]) * weights_.g[f] * (u_b_new[b] - u_b[b]);
   }
 }
 
@@ -177,7 +179,7 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
     rhs_[c] *= 1 - share;
   }
   viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
-  set_rhs(u_b, u_b_new, grad_p, mu, sources, theta_now, dt);
+  set_rhs(u_b, u_b_new, grad_p, mu, kappa, sources, theta_now, dt);
 
   const Index dim = mesh_.dim;
   const std::vector<Real>& diagonal = system_.matrix().diagonal;

@@ -80,8 +80,8 @@ class Momentum {
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
   Real extrapolated(Real dt) const;
   void set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
-               const CellField<Vec3>& grad_p, const FaceField<Real>& mu, const Sources& sources,
-               Real theta_now, Real dt);
+               const CellField<Vec3>& grad_p, const FaceField<Real>& mu,
+               const FaceField<Real>& kappa, const Sources& sources, Real theta_now, Real dt);
   const Mesh& mesh_;
   const FaceWeights& weights_;
   Real rho_, mu_0_;

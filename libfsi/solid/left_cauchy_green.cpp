@@ -49,8 +49,8 @@ void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad)
   }
 }
 
-Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                                CellField<SymGradient>& grad) {
+Strain LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                                  CellField<SymGradient>& grad) {
   const std::vector<Index>& core = band_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(Bt[c]);
@@ -63,7 +63,7 @@ Real LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& car
   for (const Index c : band_.last_core())
     if (alpha[c] < alpha_min) Bt[c] = {};
   mesh_.halo.update(Bt);
-  return 0;
+  return {};
 }
 
 Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,

@@ -6,6 +6,7 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/strain.hpp"
 
 namespace fsi::solid {
 
@@ -36,11 +37,9 @@ class LeftCauchyGreen {
   std::span<const Index> strained() const { return band_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
-  /// zero where alpha < alpha_min. grad: scratch. Returns the largest rate of log B following the
-  /// solid on this rank, which is not
-  /// watched: 0.
-  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                 CellField<SymGradient>& grad);
+  /// zero where alpha < alpha_min. grad: scratch. The strain is not watched: none is returned.
+  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                   CellField<SymGradient>& grad);
 
   /// Sets B of a cell; then `resume`, halo included.
   void set(Index c, const SymTensor& B, Real alpha) {

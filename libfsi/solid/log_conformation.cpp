@@ -78,13 +78,10 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
   return fastest;
 }
 
-Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                                CellField<SymGradient>& grad) {
+Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad) {
   const std::vector<Index>&cells = known_.cells(), &core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
-  set_L(alpha, carrier);
-  rate(cells, carrier, grad);
   for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
   mesh_.halo.update(psi);
   const Real fastest = rate(core, carrier, grad);
@@ -93,6 +90,14 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   for (const Index c : extension_.inside()) grad[c] = {};
   extension_.apply(psi, known_);
   return fastest;
+}
+
+Strain LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                                  CellField<SymGradient>& grad) {
+  set_L(alpha, carrier);
+  return in_parts(
+      dt, [&] { return rate(known_.cells(), carrier, grad); },
+      [&](Real part) { return advance(carrier, part, grad); });
 }
 
 Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,

@@ -7,14 +7,16 @@
 #include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/log_tensor.hpp"
+#include "libfsi/solid/strain.hpp"
 
 namespace fsi::solid {
 
 /// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
 /// on the cells that the solid fills by half or more, with face values by Koren's limiter, Heun's
-/// method over dt with phi and L frozen (one_sided.hpp), then det B = 1 and the extension into the
-/// cells around. B = exp(psi) is positive definite whatever happens. Second order in space; the
-/// solver makes it so in time by taking it half a step ahead of the flow.
+/// method over dt, or parts of it (strain.hpp), with phi and L frozen (one_sided.hpp), then det B =
+/// 1 and the extension into the cells around. B = exp(psi) is positive definite whatever happens.
+/// Second order in space; the solver makes it so in time by taking it half a step ahead of the
+/// flow.
 class LogConformation {
  public:
   explicit LogConformation(const Mesh& mesh);
@@ -42,10 +44,10 @@ class LogConformation {
   std::span<const Index> strained() const { return known_.cells(); }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
-  /// zero far from the solid. grad: scratch. Returns the largest rate of log B following the solid
-  /// over this rank's inner cells: what is thinner than the mesh sets no step.
-  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                 CellField<SymGradient>& grad);
+  /// zero far from the solid. grad: scratch. The strain returned is that of the inner cells: what
+  /// is thinner than the mesh sets no step.
+  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                   CellField<SymGradient>& grad);
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
@@ -64,6 +66,8 @@ class LogConformation {
   /// Sets rate_ on the cells, which begin with known_.core(); returns the largest of log B
   /// following the solid.
   Real rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
+  /// Heun's method over dt from rate_ on known_.cells(); returns the rate of its second stage.
+  Real advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
 

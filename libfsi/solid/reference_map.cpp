@@ -100,10 +100,8 @@ Vec3 ReferenceMap::face_value(Index f, Index c, const Carrier& carrier, Real dt)
   return face - back(up, u);
 }
 
-Real ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
-                             CellField<SymGradient>& /*grad*/) {
+void ReferenceMap::advance(const Carrier& carrier, Real dt) {
   new_.clear();
-  Real fastest = 0;
   for (const Index c : known_.core()) {
     // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
     // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
@@ -120,14 +118,20 @@ Real ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& ca
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(carrier.L[c], off));
     new_.push_back(d[c] - (dt / mesh_.V[c]) * sum);
-    fastest = std::max(fastest, largest_rate(carrier.L[c]));
   }
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
   if (!all_of_ranks(!folded()))
     throw Error(Kind::numerics, "the reference map folds: det grad xi <= 0");
-  return fastest;
+}
+
+Strain ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
+                               CellField<SymGradient>& /*grad*/) {
+  Real fastest = 0;
+  for (const Index c : known_.core()) fastest = std::max(fastest, largest_rate(carrier.L[c]));
+  return in_parts(
+      dt, [&] { return fastest; }, [&](Real part) { return advance(carrier, part), fastest; });
 }
 
 bool ReferenceMap::folded() const {

@@ -7,6 +7,7 @@
 #include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/map_extension.hpp"
+#include "libfsi/solid/strain.hpp"
 
 namespace fsi::solid {
 
@@ -42,10 +43,10 @@ class ReferenceMap {
   std::span<const Index> strained() const { return known_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return d is set on owned cells and halo, zero
-  /// far from the solid. grad: not used. Returns the largest rate of log B following the solid over
-  /// this rank's cells. Errors: Error{numerics} where the map folds, det grad xi <= 0.
-  Real transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                 CellField<SymGradient>& grad);
+  /// far from the solid. grad: not used. Errors: Error{numerics} where the map folds, det grad xi
+  /// <= 0.
+  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+                   CellField<SymGradient>& grad);
 
   /// B alone does not tell a map. Errors: always Error{input}.
   void set(Index c, const SymTensor& B, Real alpha);
@@ -69,6 +70,7 @@ class ReferenceMap {
   /// The upwind value of d at face f half a step back along the particle's path.
   Vec3 face_value(Index f, Index c, const Carrier& carrier, Real dt) const;
   Tensor gradient(Index c) const;
+  void advance(const Carrier& carrier, Real dt);
   void extend();
   bool folded() const;
 

@@ -14,8 +14,9 @@ namespace {
 /// What a step must not leave behind; more than the limits that it was chosen by, since the state
 /// that it ends with is not known before.
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
+constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
 constexpr Real elastic_max = 5;             // elastic waves: found stable up to here
-constexpr Real strain_max = 0.5;            // of the solid in one step
+constexpr Real strain_max = 0.5;            // in the step, and in each part of the solid's own
 constexpr Real eigenvalue_min = 1e-4;       // of B: its condition number reaches 1e8
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
@@ -27,21 +28,25 @@ std::string Solver::objection(Real dt) const {
   if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
     return "the flow is not divergence-free";
   if (!body_) return "";
+  if (body_->advected.courant > carried_max) return "the solid moved by more than a cell";
   if (body_->advected.remaining > fraction_excess_max) return "the fraction of solid left [0, 1]";
   if (!body_->semi_implicit()) return "";
   if (dt > elastic_max * elastic_time()) return "the solid became too stiff for the step";
-  if (dt > strain_dt(strain_max)) return "the solid strains too much in the step";
+  if (dt > strain_dt(strain_max) || global_max(body_->strain.of_part) > strain_max)
+    return "the solid strains too much in the step";
   if (global_min(body_->eigenvalue_min) < eigenvalue_min)
     return "the smallest eigenvalue of B fell below 1e-4";
   return "";
 }
 
+void Solver::hold_backup() {
+  io::Snapshot state;
+  list(state);
+  backup_.emplace(state, mesh_);
+}
+
 Real Solver::advance(Real dt) {
-  if (!backup_) {
-    io::Snapshot state;
-    list(state);
-    backup_.emplace(state, mesh_);
-  }
+  if (!backup_) hold_backup();
   backup_->keep();
   // After a rejected step the next ones grow by a tenth each.
   constexpr Real growth = 1.1, none = std::numeric_limits<Real>::max();

@@ -59,7 +59,10 @@ void Body::weigh() {
         eigenvalue_min = k.weigh(B, lambda, alpha, k.extended ? band.cells() : band.core());
       },
       kinematics);
-  if (extended()) vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
+  if (extended())
+    vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
+  else
+    vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   mesh.halo.update(B);
   mesh.halo.update(lambda);
 }
@@ -67,7 +70,7 @@ void Body::weigh() {
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
   snapshot.add("solid_t", &t);
-  snapshot.add("solid_strain_rate", &strain_rate);
+  snapshot.add("solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
   if (auto* k = std::get_if<solid::ReferenceMap>(&kinematics)) {

@@ -65,10 +65,10 @@ struct Body {
   const FaceWeights& weights;
   CellField<Real> alpha;     ///< volume fraction of the solid
   CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;   ///< part of solid at the band's faces, where B is extended
+  FaceField<Real> alpha_f;   ///< part of solid at the band's faces
   CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
   Real t = 0;                ///< time of alpha and B
-  Real strain_rate = 0;      ///< largest rate of log B following the solid, in its last step
+  solid::Strain strain;      ///< in the last step
   Real eigenvalue_min = 1;   ///< of B on this rank
   vof::Interface interface;  ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;

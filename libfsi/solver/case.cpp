@@ -172,6 +172,7 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   constexpr int steps_of_start = 10;
   if (solver.state().step < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
+  if (solver.body()) all.push_back({solver.carried_dt(), "advective"});
   if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
   constexpr Real strain = 0.4;  // below what a step is rejected for
   if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});

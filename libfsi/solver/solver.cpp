@@ -19,7 +19,27 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
   return std::vector<bool>(conditions.size(), true);  // zero-gradient values count as well
 }
 
+/// (1 / 2V) sum |phi| of a cell.
+Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
+  Real sum = 0;
+  for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
+  return sum / (2 * mesh.V[c]);
+}
+
 }  // namespace
+
+Solver::Calls::Calls(Profile& profile)
+    : update_gradients(profile.add("update_gradients", "momentum")),
+      advance_interface(profile.add("advance_interface", "vof")),
+      transport_elastic(profile.add("transport_elastic", "solid")),
+      mix_viscosity(profile.add("mix_viscosity", "solid")),
+      set_elastic_force(profile.add("set_elastic_force", "solid")),
+      stiffen(profile.add("stiffen", "solid")),
+      predict_momentum(profile.add("predict_momentum", "momentum")),
+      predict_flux(profile.add("predict_flux", "flux")),
+      project(profile.add("project", "pressure")),
+      hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
+      check(profile.add("check", "flux")) {}
 
 Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
     : mesh_(mesh),
@@ -42,11 +62,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f),
-      vof_phase_(profile_.add("vof")),
-      solid_phase_(profile_.add("solid")),
-      momentum_phase_(profile_.add("momentum")),
-      flux_phase_(profile_.add("flux")),
-      pressure_phase_(profile_.add("pressure")) {
+      calls_(profile_) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
   if (physics.mu_s > 2 * physics.mu_f || physics.mu_f > 2 * physics.mu_s) momentum_.theta = 1;
@@ -69,17 +85,21 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
     forcing_->gradient = 0;
   }
+  hold_backup();
 }
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   body_.emplace(mesh_, weights_, shape, physics_.G, kind);
   body_->t = state_.t;
+  if (physics_.solid_acceleration != Vec3{})
+    body_force_.emplace(mesh_, physics_.rho * physics_.solid_acceleration);
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
                                            std::to_string(-body_->filled.clearance) +
                                            ": move it or make it smaller");
   mix_viscosity();
+  hold_backup();
 }
 
 void Solver::step(Real dt) {
@@ -104,7 +124,7 @@ void Solver::step(Real dt) {
 }
 
 void Solver::update_gradients() {
-  const Profile::Phase phase(profile_, momentum_phase_);
+  const Profile::Call call(profile_, calls_.update_gradients);
   gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
@@ -118,7 +138,7 @@ void Solver::synchronise() {
 }
 
 void Solver::advance_interface(Real t) {
-  const Profile::Phase phase(profile_, vof_phase_);
+  const Profile::Call call(profile_, calls_.advance_interface);
   solid_dt_ = t - body_->t;
   body_->t = t;
   body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u, solid_dt_,
@@ -127,7 +147,7 @@ void Solver::advance_interface(Real t) {
 }
 
 void Solver::transport_elastic() {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.transport_elastic);
   const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
   std::visit(
       [&](auto& k) {
@@ -136,19 +156,20 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
-        body_->strain_rate = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
   body_->weigh();
 }
 
 void Solver::mix_viscosity() {
+  const Profile::Call call(profile_, calls_.mix_viscosity);
   if (!mu_varies()) return;
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
 }
 
 void Solver::stiffen(Real dt) {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.stiffen);
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
@@ -160,17 +181,18 @@ void Solver::stiffen(Real dt) {
 }
 
 void Solver::set_elastic_force() {
-  const Profile::Phase phase(profile_, solid_phase_);
+  const Profile::Call call(profile_, calls_.set_elastic_force);
   const solid::Strained strained{body_->B, body_->alpha,
                                  body_->extended() ? &body_->alpha_f : nullptr};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
-  solid::add_body_force(force_, body_->alpha, physics_.rho * physics_.solid_acceleration, mesh_,
-                        body_->band.core());
+  if (body_force_)
+    body_force_->apply(force_, balance_, body_->alpha_f, weights_, projection_.stencil(),
+                       body_->band);
 }
 
 void Solver::predict_momentum(Real dt) {
-  const Profile::Phase phase(profile_, momentum_phase_);
+  const Profile::Call call(profile_, calls_.predict_momentum);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
@@ -179,7 +201,7 @@ void Solver::predict_momentum(Real dt) {
 }
 
 void Solver::predict_flux(Real dt) {
-  const Profile::Phase phase(profile_, flux_phase_);
+  const Profile::Call call(profile_, calls_.predict_flux);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const flow::FluxTerms terms{
       state_.p, grad_p_, p_b_, L_, balance_, mu_, kappa_, momentum_.theta_at(dt), physics_.rho, dt};
@@ -187,7 +209,7 @@ void Solver::predict_flux(Real dt) {
 }
 
 void Solver::project(Real dt) {
-  const Profile::Phase phase(profile_, pressure_phase_);
+  const Profile::Call call(profile_, calls_.project);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   const Solve solve =
       projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
@@ -200,11 +222,12 @@ void Solver::project(Real dt) {
 }
 
 void Solver::hold_mean_velocity(Real dt) {
-  const Profile::Phase phase(profile_, flux_phase_);
+  const Profile::Call call(profile_, calls_.hold_mean_velocity);
   if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
 }
 
-void Solver::check() const {
+void Solver::check() {
+  const Profile::Call call(profile_, calls_.check);
   Real sum = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
   if (body_)
@@ -215,13 +238,21 @@ void Solver::check() const {
 
 Real Solver::advective_dt(Real courant) const {
   Real rate = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c) {
-    Real sum = 0;
-    for (const Index f : mesh_.cell_faces[c]) sum += std::abs(state_.phi[f]);
-    rate = std::max(rate, sum / (2 * mesh_.V[c]));
-  }
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::carried_dt() const {
+  Real rate = 0;
+  if (body_)
+    for (const Index c : body_->band.cells())
+      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+  rate = global_max(rate);
+  // body.t + solid_dt = t + ahead dt
+  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()
+                  : std::numeric_limits<Real>::max();
 }
 
 Real Solver::boundary_dt(Real courant) const {
@@ -244,7 +275,7 @@ Real Solver::elastic_dt() const {
 }
 
 Real Solver::strain_dt(Real strain) const {
-  const Real rate = global_max(body_ ? body_->strain_rate : 0);
+  const Real rate = global_max(body_ ? body_->strain.rate : 0);
   return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 

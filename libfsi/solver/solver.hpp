@@ -15,6 +15,7 @@
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/solid/body_force.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
 
@@ -93,6 +94,9 @@ class Solver {
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
+  /// Collective. Largest dt that moves the solid by a Courant number of one at most: it stands
+  /// between two steps and goes on by half of this and half of the last one.
+  Real carried_dt() const;
   /// Collective. Largest dt in which nothing that moves at a boundary passes more than `courant` of
   /// the cell beside it: what is known of the flow before the first step.
   Real boundary_dt(Real courant) const;
@@ -135,13 +139,20 @@ class Solver {
   void predict_flux(Real dt);
   void project(Real dt);
   void hold_mean_velocity(Real dt);
-  void check() const;
+  void check();
   std::string objection(Real dt) const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   /// Whether the momentum equation needs the velocity gradient everywhere.
   bool needs_L() const { return weights_.skewed || weights_.non_orthogonal || mu_varies(); }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
+  void hold_backup();
+  /// Numbers in profile_ of what a step calls.
+  struct Calls {
+    explicit Calls(Profile& profile);
+    int update_gradients, advance_interface, transport_elastic, mix_viscosity, set_elastic_force,
+        stiffen, predict_momentum, predict_flux, project, hold_mean_velocity, check;
+  };
 
   const Mesh& mesh_;
   Physics physics_;
@@ -159,13 +170,14 @@ class Solver {
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
+  std::optional<solid::BodyForce> body_force_;  // where there is one
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;
-  int vof_phase_, solid_phase_, momentum_phase_, flux_phase_, pressure_phase_;
+  Calls calls_;
 };
 
 }  // namespace fsi

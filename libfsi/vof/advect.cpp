@@ -69,6 +69,17 @@ void find_faces(const CellField<Real>& alpha, const Mesh& mesh, AdvectScratch& s
   }
 }
 
+/// Largest (dt / 2V) sum |phi| of the cells that the step changes.
+Real courant_number(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const AdvectScratch& s) {
+  Real largest = 0;
+  for (const Index c : s.cells) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
+    largest = std::max(largest, dt / (2 * mesh.V[c]) * sum);
+  }
+  return global_max(largest);
+}
+
 /// U_n = n . u at the centre of the plane.
 void interface_speed(const Interface& interface, const CellField<Vec3>& u, const Mesh& mesh,
                      AdvectScratch& s) {
@@ -183,6 +194,7 @@ AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const Fa
   interface_speed(interface, u, mesh, s);
   solid_fluxes(alpha, interface, phi, dt, mesh, s);
   AdvectReport report;
+  report.courant = courant_number(phi, dt, mesh, s);
   redistribute(alpha, phi, dt, mesh, s, report);
 
   std::array<Sum, 2> sums;  // volume added, weight of those who give it back

@@ -12,6 +12,7 @@ namespace fsi::vof {
 
 /// What a step of advection met.
 struct AdvectReport {
+  Real courant = 0;    ///< largest (dt / 2V) sum |phi| of the cells at the interface
   int rounds = 0;      ///< of redistribution
   Real overshoot = 0;  ///< largest excess over [0, 1] before redistribution
   Real remaining = 0;  ///< and after it; above 1e-12 only where the Courant number exceeds one

@@ -60,4 +60,13 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
   }
 }
 
+void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces) {
+  for (const Index f : faces) {
+    const Real a_P = alpha[mesh.owner[f]];
+    alpha_f[f] =
+        f < mesh.n_internal ? a_P + weights.lambda[f] * (alpha[mesh.neighbour[f]] - a_P) : a_P;
+  }
+}
+
 }  // namespace fsi::vof

@@ -23,4 +23,8 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces);
 
+/// alpha_f = (1 - lambda) alpha_P + lambda alpha_N on the listed faces, whatever the planes.
+void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
+
 }  // namespace fsi::vof

@@ -24,7 +24,7 @@ std::function<Real(Real)> reversed(Real T) {
 }
 
 Motion vortex() {
-  // psi = s2(x) s2(y) / pi, u = (-d psi/dy, d psi/dx): A.z = -psi
+  // stream function s = s2(x) s2(y) / pi, u = (-ds/dy, ds/dx): A.z = -s
   return {[](const Vec3& x) {
             return Vec3{-s2(x.x) * sd(x.y), sd(x.x) * s2(x.y), 0};
           },

@@ -40,8 +40,8 @@ void first_normals(const CellField<Real>& alpha, const Mesh& mesh, ReconstructSc
     s.fit[i] = least_squares(mesh, s.cells[i]);
     const Vec3 g = gradient_at(alpha, s.fit[i], mesh, s.cells[i]);
     const Real size = norm(g);
-    const Real h = std::pow(mesh.V[s.cells[i]], 1.0 / mesh.dim);
-    s.normal[i] = size * h > interface_eps * degenerate ? g / -size : Vec3{};
+    const Real width = std::pow(mesh.V[s.cells[i]], 1.0 / mesh.dim);
+    s.normal[i] = size * width > interface_eps * degenerate ? g / -size : Vec3{};
   }
 }
 
@@ -60,14 +60,14 @@ void cut_cells(Interface& interface, const CellField<Real>& alpha, const Mesh& m
   mesh.halo.update(interface.piece);
 }
 
-/// Signed distance psi to the interface at the centres of s.near: to the cell's own plane, else
-///   psi = sum w n.(x - x_S) / sum w,  w = (n . (x - x_S) / |x - x_S|)^2   [Scheufler19]
+/// Signed distance to the interface at the centres of s.near: to the cell's own plane, else
+///   distance = sum w n.(x - x_S) / sum w,  w = (n . (x - x_S) / |x - x_S|)^2   [Scheufler19]
 /// over the planes of the vertex neighbours.
 void reconstruct_distance(const Interface& interface, const Mesh& mesh, ReconstructScratch& s) {
   for (const Index c : s.near) {
     const Vec3 x = mesh.C[c];
     if (const Piece& own = interface.piece[c]; own.area > 0) {
-      s.psi[c] = dot(own.n_hat, x - own.centre);
+      s.distance[c] = dot(own.n_hat, x - own.centre);
       continue;
     }
     Real sum = 0, total = 0;
@@ -75,13 +75,13 @@ void reconstruct_distance(const Interface& interface, const Mesh& mesh, Reconstr
       const Piece& p = interface.piece[mesh.cell_neighbours.index[k]];
       if (!(p.area > 0)) continue;
       const Vec3 d = x - p.centre - mesh.translation[mesh.cell_neighbour_shift[k]];
-      const Real distance = dot(p.n_hat, d);
-      const Real w = distance * distance / norm2(d);
-      sum += w * distance, total += w;
+      const Real to_plane = dot(p.n_hat, d);
+      const Real w = to_plane * to_plane / norm2(d);
+      sum += w * to_plane, total += w;
     }
-    s.psi[c] = total > 0 ? sum / total : 0;
+    s.distance[c] = total > 0 ? sum / total : 0;
   }
-  mesh.halo.update(s.psi);
+  mesh.halo.update(s.distance);
 }
 
 /// Means over the interface of 1 - cos.
@@ -90,13 +90,13 @@ struct Change {
   Real bent = 0;    ///< between a cell's normal and its neighbours'
 };
 
-/// n = grad psi / |grad psi| (a distance: |grad psi| = 1 unless planes contradict each other).
+/// n = grad distance / |grad distance|, of length 1 unless planes contradict each other.
 Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScratch& s) {
   std::array<Sum, 3> sums;
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
     if (norm2(s.normal[i]) == 0) continue;
-    const Vec3 g = gradient_at(s.psi, s.fit[i], mesh, c);
+    const Vec3 g = gradient_at(s.distance, s.fit[i], mesh, c);
     const Real size = norm(g);
     if (!(size > degenerate)) continue;
     const Vec3 n = g / size;
@@ -118,7 +118,7 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
 }  // namespace
 
 ReconstructScratch::ReconstructScratch(const Mesh& mesh)
-    : psi(mesh), marked(static_cast<std::size_t>(mesh.n_owned), 0), cell(mesh.dim) {
+    : distance(mesh), marked(static_cast<std::size_t>(mesh.n_owned), 0), cell(mesh.dim) {
   auto& offset = halo_neighbours.offset;
   offset.assign(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned) + 1, 0);
   const auto each = [&](auto&& visit) {

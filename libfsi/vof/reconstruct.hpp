@@ -46,7 +46,7 @@ struct ReconstructScratch {
   explicit ReconstructScratch(const Mesh& mesh);
 
   Csr halo_neighbours;               ///< [n_cells - n_owned] owned cells that touch a halo cell
-  CellField<Real> psi;               ///< reconstructed distance near the interface
+  CellField<Real> distance;          ///< reconstructed distance near the interface
   std::vector<Index> cells;          ///< owned cells with alpha between the limits
   std::vector<Index> near;           ///< owned cells that touch one of those, or are one
   std::vector<std::uint8_t> marked;  ///< [n_owned] whether the cell is in `near`

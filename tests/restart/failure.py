@@ -6,8 +6,10 @@
 The pressure solver is given too few iterations: after a start from rest with a step that needs none,
 every step fails. With enough iterations the run goes on from the checkpoint. A run out of wall time
 ends with exit code 5 and a checkpoint. A file that cannot be written ends a run with exit code 4, the
-sentence in summary.json and a checkpoint, as far as there is room for them.
+sentence in summary.json and a checkpoint, as far as there is room for them. Steps that are taken back are counted by reason: a solid that strains too
+much, a pressure that leaves too much divergence.
 """
+import csv
 import glob
 import json
 import os
@@ -111,6 +113,31 @@ def file_failures(drivers, folder, case):
     shutil.rmtree(out + "-moved")
 
 
+def check_rejections(drivers, source, folder, reason, words):
+    """The run is taken back for that reason, goes on, and tells it."""
+    mesh, out = os.path.join(folder, "rejected.msh"), os.path.join(folder, "rejected")
+    shutil.rmtree(out, ignore_errors=True)
+    subprocess.run(["gmsh", "-2", os.path.join(source, "meshes", "cavity.geo"), "-setnumber", "n",
+                    "16", "-o", mesh], check=True, stdin=subprocess.DEVNULL,
+                   stdout=subprocess.DEVNULL)
+    done = run([os.path.join(drivers, "fsi-cavity"),
+                os.path.join(source, "examples", "cavity_disc.yaml"), "-mesh", mesh, "-output_dir",
+                out, "-output_interval", "0", "-sample_interval", "0", *words])
+    state = summary(out)
+    check(done.returncode == 0 and state["status"] == "complete", f"{reason}: the run goes on")
+    check(list(state["rejections"]) == [reason], f"{reason}: {state['rejections']}")
+    check(state["rejections"].get(reason) == state["rejected_steps"] > 0,
+          f"{reason}: {state['rejected_steps']} steps are taken back")
+    with open(os.path.join(out, "flow.csv"), encoding="utf-8") as table:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(table)]
+    back = [b for a, b in zip(rows, rows[1:]) if b["rejected_steps"] > a["rejected_steps"]]
+    check(rows[-1]["rejected_steps"] == state["rejected_steps"] and len(back) > 0,
+          f"{reason}: flow.csv counts them")
+    retry = 7  # doc/theory/flow.md
+    check(all(row["limit"] == retry and row["dt"] < row["dt_limit"] for row in back),
+          f"{reason}: flow.csv shows the shorter steps")
+
+
 def main():
     source, drivers, folder = sys.argv[1:4]
     out = os.path.join(folder, "failure")
@@ -151,6 +178,12 @@ def main():
     check(summary(out)["status"] == "interrupted", "interrupted")
     check(any(name.startswith("checkpoint_") for name in os.listdir(out)), "with a checkpoint")
 
+    check_rejections(drivers, source, folder, "the solid strains too much in the step",
+                     ["-time_end", "6", "-time_step", "0.05", "-solid_shear_modulus", "0.01",
+                      "-solid_center", "0.5,0.4,0", "-solid_radius", "0.3"])
+    check_rejections(drivers, source, folder, "the flow is not divergence-free",
+                     ["-time_end", "0.3", "-time_step", "0.02", "-p_ksp_type", "cg", "-p_pc_type",
+                      "jacobi", "-p_ksp_rtol", "1e-12", "-p_ksp_atol", "1e-3"])
     file_failures(drivers, folder, command[:4])
     return 1 if failures else 0
 

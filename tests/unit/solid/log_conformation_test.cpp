@@ -176,6 +176,24 @@ TEST(LogConformation, SmoothShearIsOfSecondOrder) {
   }
 }
 
+// One step of a shear by 3, which Heun's method alone would miss by half, goes in parts.
+TEST(LogConformation, ALargeStrainIsTakenInParts) {
+  Tensor L;
+  L.xy = 3;
+  for (const Real turned : {0.0, 1.0}) {
+    Full run(plane(6, true));
+    run.L.fill(turned > 0 ? transpose(L) : L);
+    run.kinematics.mark(run.alpha);
+    const solid::Strain strain = run.kinematics.transport(
+        run.alpha, {run.phi, run.u, run.L, run.stencil, run.weights}, 1, run.grad);
+    const SymTensor exact =
+        turned > 0 ? SymTensor{1, 3, 0, 10, 0, 1} : SymTensor{10, 3, 0, 1, 0, 1};
+    EXPECT_LE(run.error([&](const Vec3&) { return exact; }), 0.05 * 10);
+    EXPECT_LE(global_max(strain.of_part), 0.5);
+    EXPECT_GT(global_max(strain.rate), 1);
+  }
+}
+
 // Whatever the velocity gradient, B stays positive definite and isochoric.
 TEST(LogConformation, BStaysPositiveDefinite) {
   Random random;

@@ -3,11 +3,13 @@
 // one.
 
 #include <gtest/gtest.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -118,6 +120,8 @@ TEST(Recovery, IsTheSmallerStepWithTwoViscosities) {
   for (const int good : {6, 7}) expect_recovery({.mu_s = 0.1}, good);
 }
 
+using Tally = std::map<std::string, std::int64_t>;
+
 TEST(Recovery, NamesAStiffSolid) {
   const Scene scene{.G = 1000};
   const Mesh mesh = mesh_of(scene);
@@ -126,9 +130,103 @@ TEST(Recovery, NamesAStiffSolid) {
   const Real asked = 1.6 * one.solver.elastic_dt(), dt = one.solver.advance(asked);
   EXPECT_EQ(dt, asked / 2);
   EXPECT_EQ(one.solver.report().rejections,
-            (std::map<std::string, std::int64_t>{{"the solid became too stiff for the step", 1}}));
+            (Tally{{"the solid became too stiff for the step", 1}}));
   EXPECT_EQ(other.solver.advance(dt), dt);
   EXPECT_TRUE(one.state() == other.state());
+}
+
+/// A disc drawn far along y, whose log B turns fast although the flow is slow: u = s (y, x)
+/// everywhere, from some time on.
+struct Drawn {
+  Drawn(const Mesh& mesh, Real onset)
+      : solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = 1e-6},
+               {.conditions = {{"top", wall(onset)},
+                               {"left", wall(onset)},
+                               {"right", wall(onset)},
+                               {"bottom", wall(onset)}}}) {
+    solver.start([&](const Vec3& x) { return wall(onset).u(x, 0); });
+    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}));
+    solver.body()->set_B(
+        [](const Vec3&) { return SymTensor{std::exp(-8), 0, 0, std::exp(8), 0, 1}; });
+  }
+  static FixedVelocity wall(Real onset) {
+    return {[onset](const Vec3& x, Real t) {
+      return t < onset - 1e-9 ? Vec3{} : Vec3{x.y - 0.5, x.x - 0.5, 0};
+    }};
+  }
+  Solver solver;
+};
+
+TEST(Recovery, NamesASolidThatStrains) {
+  const Mesh mesh = mesh_of({});
+  Drawn run(mesh, 0);
+  ASSERT_EQ(run.solver.advance(1e-3), 1e-3) << run.solver.report().failure;
+  const Real asked = 1.5 * run.solver.strain_dt(0.5);
+  ASSERT_LT(asked, 0.9 * run.solver.advective_dt(1)) << "it is not the flow that is too fast";
+  EXPECT_EQ(run.solver.advance(asked), asked / 2);
+  EXPECT_TRUE(run.solver.report().held_back);
+  EXPECT_EQ(run.solver.report().rejections, (Tally{{"the solid strains too much in the step", 1}}));
+}
+
+TEST(Recovery, TakesTheSolidsStepInPartsWhereTheOneBeforeWasTooLong) {
+  // The solid moves on by half the step before the onset, whatever the one after it is.
+  const Mesh mesh = mesh_of({});
+  constexpr Real onset = 0.1, long_step = 0.075, dt = 1e-3;
+  Drawn run(mesh, onset);
+  ASSERT_EQ(run.solver.advance(onset - long_step), onset - long_step);
+  ASSERT_EQ(run.solver.advance(long_step), long_step) << run.solver.report().failure;
+  ASSERT_EQ(run.solver.advance(dt), dt) << run.solver.report().failure;
+  const solid::Strain strain = run.solver.body()->strain;
+  const Real rate = global_max(strain.rate);
+  EXPECT_GT(rate * (long_step + dt) / 2, 0.5) << "more than a step may strain";
+  EXPECT_LT(rate * dt, 0.1) << "but the flow's step is short";
+  EXPECT_LE(global_max(strain.of_part), 0.5);
+}
+
+TEST(Recovery, NamesASolidThatIsCarriedTooFar) {
+  // Two steps at a Courant number below the flow's limit of 1.2, the solid's move above one.
+  const Scene scene{.G = 1e-6};
+  const Mesh mesh = test::read_box({.n = {n, n, 0}, .periodic = {"left", "right"}});
+  const FixedVelocity wall{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = scene.G},
+                {.conditions = {{"top", wall}, {"bottom", wall}}});
+  solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+  solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}));
+  const Real cell = 1.0 / n;
+  ASSERT_EQ(solver.advance(0.9 * cell), 0.9 * cell) << solver.report().failure;
+  EXPECT_NEAR(solver.carried_dt(), 1.1 * cell, 1e-6);
+  EXPECT_EQ(solver.advance(1.15 * cell), 1.15 * cell / 2);
+  EXPECT_EQ(solver.report().rejections, (Tally{{"the solid moved by more than a cell", 1}}));
+  // What carried_dt allows is not rejected.
+  const Real allowed = std::min(solver.carried_dt(), 1.1 * 1.15 * cell / 2);
+  EXPECT_EQ(solver.advance(allowed), allowed);
+  EXPECT_EQ(solver.report().rejected, 1);
+}
+
+/// PETSc options for the time of a test.
+struct Given {
+  explicit Given(const char* options) { FSI_PETSC(PetscOptionsInsertString(nullptr, options)); }
+  Given(const Given&) = delete;
+  Given& operator=(const Given&) = delete;
+  ~Given() { static_cast<void>(PetscOptionsClear(nullptr)); }
+};
+
+TEST(Recovery, NamesAFlowThatIsNotDivergenceFree) {
+  // What the pressure solve leaves is ten times what a step of this length may.
+  const Real dt = 0.02, cells_norm = 1.0 / n, allowed = 1e-4 * cells_norm / dt;
+  const Given given(("-p_ksp_type cg -p_pc_type jacobi -p_ksp_rtol 1e-12 -p_ksp_atol " +
+                     std::to_string(3 * allowed))
+                        .c_str());
+  const Mesh mesh = mesh_of({});
+  Trial run(mesh, {});
+  const StepReport& report = run.solver.report();
+  Real taken = dt;
+  for (int i = 0; i < 20 && report.rejected == 0; ++i) taken = run.solver.advance(dt);
+  std::printf("rejected %d taken %g\n", int(report.rejected), taken);
+  EXPECT_EQ(report.rejections, (Tally{{"the flow is not divergence-free", report.rejected}}));
+  ASSERT_GT(report.rejected, 0);
+  EXPECT_EQ(taken, std::ldexp(dt, -static_cast<int>(report.rejected)));
+  EXPECT_LE(report.pressure_residual * taken, 1e-4 * cells_norm);
 }
 
 /// Nine tries fail for that reason; the state is what it was.

@@ -1,0 +1,32 @@
+#pragma once
+// A body force on the solid alone, in the form in which a pressure can balance it.
+
+#include <vector>
+
+#include "libfsi/field/band.hpp"
+#include "libfsi/operators/gradient.hpp"
+
+namespace fsi::solid {
+
+/// Force alpha a per volume. Through its surface it jumps, and the pressure's gradient with it; a
+/// force taken cell by cell leaves there what no pressure balances.
+class BodyForce {
+ public:
+  BodyForce(const Mesh& mesh, const Vec3& a) : mesh_(mesh), a_(a), f_(mesh) {}
+
+  /// Collective. With F_f = alpha_f a . d, the pressure's rise over a face that balances it:
+  ///   force_c   += f_c = sum_f g_cf F_f, signed outward: the gradient of that pressure
+  ///   balance_f += F_f - (f)_f . d, its counterpart in the face flux
+  /// Where p_N - p_P = F_f on every face, neither cells nor faces are accelerated. stencil: that of
+  /// the pressure; alpha_f: on the band's faces. force: owned and halo.
+  void apply(CellField<Vec3>& force, FaceField<Real>& balance, const FaceField<Real>& alpha_f,
+             const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+
+ private:
+  const Mesh& mesh_;
+  Vec3 a_;
+  CellField<Vec3> f_;
+  std::vector<Index> last_cells_;
+};
+
+}  // namespace fsi::solid

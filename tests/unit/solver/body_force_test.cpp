@@ -1,0 +1,90 @@
+// A heavy solid at rest: the pressure balances its weight, and nothing moves.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real g = 50;
+
+struct Still {
+  bool simplex = false;
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Real middle = 0.53;  ///< of a layer of thickness 0.4; its faces cut cells
+  Real G = 1;
+};
+
+/// Largest velocity of cells and of fluxes after a time, in units of what falls for as long as a
+/// step.
+struct Speeds {
+  Real cell = 0, face = 0;
+};
+
+Speeds speeds(const Still& still) {
+  constexpr Index n = 16;
+  const Mesh mesh = test::read_box({.n = {4, n, 0},
+                                    .length = {4.0 / n, 1, 1},
+                                    .simplex = still.simplex,
+                                    .periodic = {"left", "right"}});
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = still.G, .solid_acceleration = {0, -g, 0}},
+      {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  solver.put_solid(shapes::translate(shapes::box({200, 0.4, 200}), {0, still.middle, 0}),
+                   still.kinematics);
+  constexpr Real dt = 1e-3;
+  constexpr int steps = 20;
+  for (int i = 0; i < steps; ++i) solver.step(dt);
+  Speeds speeds;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    speeds.cell = std::max(speeds.cell, norm(solver.state().u[c]) / (g * dt));
+  for (Index f = 0; f < mesh.n_faces; ++f)
+    speeds.face =
+        std::max(speeds.face, std::abs(solver.state().phi[f]) / norm(mesh.Sf[f]) / (g * dt));
+  return {global_max(speeds.cell), global_max(speeds.face)};
+}
+
+// With the force of each cell by its alpha the cells kept 0.7 to 1, the faces of triangles 0.1.
+TEST(BodyForce, LeavesAHeavyLayerAtRest) {
+  for (const bool simplex : {false, true})
+    for (const auto kind : {KinematicsKind::log_conformation, KinematicsKind::reference_map,
+                            KinematicsKind::left_cauchy_green}) {
+      const Speeds s = speeds({.simplex = simplex, .kinematics = kind});
+      std::printf("heavy layer, %s, kinematics %d: cells %.2e, faces %.2e\n",
+                  simplex ? "triangles" : "quads", static_cast<int>(kind), s.cell, s.face);
+      EXPECT_LE(s.cell, simplex ? 5e-3 : 1e-4);
+      EXPECT_LE(s.face, simplex ? 1e-3 : 1e-12);
+    }
+}
+
+/// The force on a disc, relative to its weight, less one.
+Real excess(Index n) {
+  const Mesh mesh = test::read_box({.n = {n, n, 0}});
+  const FaceWeights weights(mesh);
+  const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  const shapes::Shape disc = shapes::translate(shapes::sphere(0.21), {0.53, 0.47, 0});
+  const Body body(mesh, weights, disc, 1, KinematicsKind::log_conformation);
+  solid::BodyForce weight(mesh, {0, -g, 0});
+  CellField<Vec3> force(mesh);
+  FaceField<Real> balance(mesh);
+  weight.apply(force, balance, body.alpha_f, weights, stencil, body.band);
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c) sum.add(mesh.V[c] * force[c].y);
+  return sum.total() / (-g * body.filled.volume) - 1;
+}
+
+TEST(BodyForce, IsTheWeightOfTheSolidToSecondOrder) {
+  const Real coarse = excess(24), fine = excess(96);
+  std::printf("weight of a disc: off by %.1e and %.1e\n", coarse, fine);
+  EXPECT_LE(std::abs(coarse), 1e-2);
+  EXPECT_LE(std::abs(fine), 1e-2 / 12);
+}
+
+}  // namespace
+}  // namespace fsi

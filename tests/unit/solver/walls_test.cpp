@@ -1,0 +1,76 @@
+// Walls that move.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// A box whose top has waves of that height.
+Mesh wavy(Real height) {
+  return test::read_box({.n = {16, 16, 0}, .moved = [height](const Vec3& x) {
+                           return x + Vec3{0, height * x.y * std::sin(6 * x.x), 0};
+                         }});
+}
+
+Conditions lid(const Vec3& velocity) {
+  return {{"top", Wall{velocity}}, {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}};
+}
+
+std::string complaint(const Mesh& mesh, const Conditions& conditions) {
+  try {
+    resolve(conditions, mesh);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Kind::input);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Walls, MayNotMoveThroughThemselves) {
+  EXPECT_EQ(complaint(wavy(0), lid({1, 0, 0})), "");
+  EXPECT_EQ(complaint(wavy(0.1), lid({})), "");
+  EXPECT_NE(complaint(wavy(0.1), lid({1, 0, 0})).find("\"top\" moves through itself"),
+            std::string::npos);
+  EXPECT_NE(complaint(wavy(0), lid({1, -0.5, 0})).find("\"top\" moves through itself"),
+            std::string::npos);
+}
+
+// What is left of a plane in a mesh file's digits must not become a flux that no outflow takes up.
+TEST(Walls, LetNothingThrough) {
+  const Mesh mesh = wavy(1e-7);
+  Solver solver(mesh, {}, {.conditions = lid({1, 0, 0})});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < 5; ++i) solver.step(0.02);
+  Real through = 0;
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    through = std::max(through, std::abs(solver.state().phi[f]) / norm(mesh.Sf[f]));
+  EXPECT_LE(global_max(through), 1e-15);
+  EXPECT_LE(flow::divergence_max(solver.state().phi, mesh), 1e-7);
+}
+
+// The stand-in for elasticity sees how a wall's velocity changes: stiff enough, a solid that fills
+// the box follows its walls within the step.
+TEST(Walls, CarryAStiffSolidWithThem) {
+  const Mesh mesh = test::read_box({.n = {8, 8, 0}, .periodic = {"left", "right"}});
+  const FaceWeights weights(mesh);
+  const Conditions conditions{{"top", Wall{}}, {"bottom", Wall{}}};
+  flow::Momentum momentum(mesh, weights, resolve(conditions, mesh), 1, 0.01);
+  CellField<Vec3> u(mesh);
+  const CellField<Vec3> none(mesh);
+  const CellField<Tensor> L(mesh);
+  const FaceField<Real> phi(mesh), mu(mesh, 0.01), kappa(mesh, 1e3);
+  const BoundaryField<Vec3> before(mesh), after(mesh, {0.1, 0, 0});
+  momentum.predict(u, before, after, none, L, phi, mu, kappa, false, true, {none, {}}, 0.1);
+  for (Index c = 0; c < mesh.n_owned; ++c) EXPECT_NEAR(u[c].x, 0.1, 1e-3);
+}
+
+}  // namespace
+}  // namespace fsi
