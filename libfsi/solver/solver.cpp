@@ -122,8 +122,8 @@ void Solver::advance_interface(Real t) {
   const Profile::Phase phase(profile_, vof_phase_);
   solid_dt_ = t - body_->t;
   body_->t = t;
-  // A flux follows the plane of one cell: where the surface is curved it is off in proportion to
-  // the part of a cell that the surface passes at once.
+  // A flux follows the plane of one cell, for a part of the step in which the surface stays in it:
+  // in whole steps the way of a thin curved body depends on dt (doc/theory/interface.md).
   constexpr Real courant = 0.2, parts_max = 10;
   const Real longest = vof::interface_dt(body_->alpha, state_.phi, courant, mesh_);
   const int parts =
