@@ -47,8 +47,8 @@ void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier
                      : one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c));
 }
 
-Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
-                           CellField<SymGradient>& grad) {
+Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
+  const std::vector<Index>& cells = known_.core();
   const FaceWeights& weights = carrier.weights;
   gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
   for (const Index c : extension_.last_ring()) grad[c] = {};
@@ -71,23 +71,25 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
       if (weights.skewed) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
-    const SymTensor strain = log_rate(i < L_.size() ? L_[i] : carrier.L[c], psi[c]);
+    const SymTensor strain = log_rate(L_[i], psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
     rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
+  for (const Index c : extension_.inside()) grad[c] = {};
   return fastest;
 }
 
 Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad) {
-  const std::vector<Index>&cells = known_.cells(), &core = known_.core();
+  const std::vector<Index>& core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
-  for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
-  mesh_.halo.update(psi);
-  const Real fastest = rate(core, carrier, grad);
+  for (std::size_t i = 0; i < core.size(); ++i) psi[core[i]] += dt * rate_[i];
+  // The cells around follow the solid in this stage too: strained by the fluid's L they would feed
+  // that back through the faces by which the flow enters the solid.
+  extension_.apply(psi, known_);
+  const Real fastest = rate(carrier, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
-  for (const Index c : extension_.inside()) grad[c] = {};
   extension_.apply(psi, known_);
   return fastest;
 }
@@ -96,7 +98,7 @@ Strain LogConformation::transport(const CellField<Real>& alpha, const Carrier& c
                                   CellField<SymGradient>& grad) {
   set_L(alpha, carrier);
   return in_parts(
-      dt, [&] { return rate(known_.cells(), carrier, grad); },
+      dt, [&] { return rate(carrier, grad); },
       [&](Real part) { return advance(carrier, part, grad); });
 }
 

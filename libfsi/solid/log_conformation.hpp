@@ -63,10 +63,9 @@ class LogConformation {
  private:
   /// Sets L_: the velocity gradient, in the solid's outermost cells that of its own side.
   void set_L(const CellField<Real>& alpha, const Carrier& carrier);
-  /// Sets rate_ on the cells, which begin with known_.core(); returns the largest of log B
-  /// following the solid.
-  Real rate(std::span<const Index> cells, const Carrier& carrier, CellField<SymGradient>& grad);
-  /// Heun's method over dt from rate_ on known_.cells(); returns the rate of its second stage.
+  /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
+  Real rate(const Carrier& carrier, CellField<SymGradient>& grad);
+  /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
@@ -74,7 +73,7 @@ class LogConformation {
   const Mesh& mesh_;
   Band known_;
   Extension extension_;
-  std::vector<SymTensor> old_, rate_;  // beside the list of cells worked on
+  std::vector<SymTensor> old_, rate_;  // beside known_.core()
   std::vector<Tensor> L_;              // beside known_.core()
 };
 

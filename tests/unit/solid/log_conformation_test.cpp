@@ -248,6 +248,27 @@ TEST(Extension, CarriesAUniformTensorOutward) {
   }
 }
 
+// A strained body at rest in itself, a stream through it and shear in the fluid around: nothing of
+// that shear enters with the stream, however long the step.
+TEST(LogConformation, StrainOfTheFluidStaysOutside) {
+  const SymTensor psi{0.3, 0.1, 0, -0.3, 0, 0};
+  for (const test::BoxFile& box :
+       {test::BoxFile{.n = {16, 16, 0}}, test::BoxFile{.n = {16, 16, 0}, .simplex = true},
+        test::BoxFile{.n = {12, 12, 12}}}) {
+    Ball ball(box);
+    Full& run = ball.full;
+    for (Index c = 0; c < run.mesh.n_cells; ++c) {
+      run.kinematics.psi[c] = ball.inside[c] * psi;
+      run.L[c] = (1 - ball.inside[c]) * Tensor{2, 9, 0, 5, -2, 0, 0, 0, 0};
+    }
+    run.kinematics.resume(run.alpha);
+    run.set_phi([](const Vec3&) { return Vec3{1, 0.5, 0}; });
+    run.step(0.02);
+    for (Index c = 0; c < run.mesh.n_owned; ++c)
+      EXPECT_LE(ball.inside[c] * largest(run.kinematics.psi[c] - psi), 1e-14);
+  }
+}
+
 // A velocity with a kink at x = 0.5, linear on either side: the gradient of the known side, beside
 // the kink as well; of cells that no known neighbour surrounds, what is given in its place.
 TEST(OneSided, GradientOfTheKnownSide) {
