@@ -45,8 +45,8 @@ void expect_error(const std::string& name, const std::string& flow, Real publish
         name.c_str(), static_cast<long long>(mesh.n_global),
         static_cast<long long>(carried.steps()), error, published, drift, outside, watch.seconds());
   EXPECT_LE(error, 1.3 * published);
-  EXPECT_LE(std::abs(drift), 1e-12);
-  EXPECT_LE(outside, 1e-8);
+  EXPECT_LE(std::abs(drift), 1e-14);
+  EXPECT_LE(outside, 1e-12);
 }
 
 TEST(Carried, Quads64) { expect_error("quads64", "vortex", 8.16e-3); }
