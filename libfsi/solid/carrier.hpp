@@ -33,6 +33,7 @@ struct Carrier {
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
+  bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
 };
 
 }  // namespace fsi::solid

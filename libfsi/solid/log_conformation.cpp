@@ -42,7 +42,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier
   const auto inner = [&](Index c) { return extension_.inner(c); };
   L_.clear();
   for (const Index c : known_.core())
-    L_.push_back(extension_.inner(c)
+    L_.push_back(carrier.sided || extension_.inner(c)
                      ? carrier.L[c]
                      : one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c));
 }

@@ -2,11 +2,11 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G) {}
+NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), slope_(mesh) {}
 
 void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
                        CellField<SymGradient>& grad, const Band& band) {
-  for (const Index c : last_cells_) force[c] = {}, grad[c] = {};
+  for (const Index c : last_cells_) force[c] = {}, grad[c] = {}, slope_[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
@@ -15,6 +15,18 @@ void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
   }
   last_cells_ = band.cells();
   last_faces_ = band.faces();
+}
+
+void NeoHookean::set_slope(const CellField<Real>& alpha, const GradientStencil& stencil,
+                           const Band& band) {
+  for (const Index c : band.cells())
+    for (const Index f : mesh_.cell_faces[c]) {
+      if (f >= mesh_.n_internal) continue;
+      const bool owner = mesh_.owner[f] == c;
+      const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
+      slope_[c] += (alpha[n] - alpha[c]) * (owner ? stencil.owner[f] : stencil.neighbour[f]);
+    }
+  mesh_.halo.update(slope_);
 }
 
 void NeoHookean::push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
@@ -47,9 +59,11 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   clear(force, balance, grad, band);
   gradient(grad, alpha, B, stencil, mesh_, band.cells());
   mesh_.halo.update(grad);
+  if (solid.along_normal) set_slope(alpha, stencil, band);
+  constexpr Real level = 1e-6;  // change of alpha across a face that counts as none
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
-    const Vec3 d = mesh_.d[f], n = d / norm(d);
+    const Vec3 d = mesh_.d[f];
     if (f >= mesh_.n_internal) {
       // tau_b = tau_P + grad tau . d
       const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
@@ -59,6 +73,8 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
     const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
+    const Vec3 slope = (1 - lambda) * slope_[P] + lambda * slope_[N];
+    const Vec3 n = norm(slope) * norm(d) > level ? slope / norm(slope) : d / norm(d);
     balance[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
   }
   if (weights.skewed && solid.alpha_f != nullptr) {

@@ -12,6 +12,7 @@ struct Strained {
   const CellField<Real>& alpha;      ///< owned and halo
   const FaceField<Real>* alpha_f{};  ///< part of solid at the band's faces; B is then known around
                                      ///< the solid as well. None: from alpha B of the cells
+  bool along_normal = false;         ///< the face flux is balanced along the surface's normal
 };
 
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
@@ -24,7 +25,10 @@ class NeoHookean {
   /// without alpha_f alpha B linear between cells, as in the paper; with skewness correction.
   /// At boundaries alpha B continues linearly.
   /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
-  /// stress. Zero outside the band of this and of the last call. force: owned and halo.
+  /// stress. With along_normal n is that of the surface, along grad alpha, where that is near:
+  /// where tau jumps the pressure jumps by m . tau . m, m normal to the surface, and what
+  /// n . tau . n with another n has besides, up to |tau|, drives a flux through the face.
+  /// Zero outside the band of this and of the last call. force: owned and halo.
   /// grad: scratch that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
              const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
@@ -35,11 +39,13 @@ class NeoHookean {
  private:
   void clear(CellField<Vec3>& force, FaceField<Real>& balance, CellField<SymGradient>& grad,
              const Band& band);
+  void set_slope(const CellField<Real>& alpha, const GradientStencil& stencil, const Band& band);
   void push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
             const Band& band, const CellField<SymGradient>& grad) const;
 
   const Mesh& mesh_;
   Real G_;
+  CellField<Vec3> slope_;                       // grad alpha, for along_normal
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
 

@@ -16,11 +16,13 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
 
 /// What a face operator on the solid reads.
 struct Stiffening {
-  const CellField<Real>& lambda;  ///< largest eigenvalue of B, on the band's cells and halo
-  const FaceField<Real>& alpha;   ///< part of solid at the band's faces
-  const CellField<Vec3>& u;       ///< owned and halo
-  const CellField<Tensor>& L;     ///< velocity gradient, on the band and halo
+  const CellField<Real>& lambda;    ///< largest eigenvalue of B, on the band's cells and halo
+  const FaceField<Real>& alpha;     ///< part of solid at the band's faces
+  const CellField<Vec3>& u;         ///< owned and halo
+  const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
+  const CellField<Real>& fraction;  ///< alpha; owned and halo
   Real G, rho, dt;
+  bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
 };
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
@@ -36,16 +38,19 @@ struct Stiffening {
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, and
 /// is of third order elsewhere. Explicit, and so at most 1.5 (k + rho |d|^2 / (8 dt)). Triangles
-/// and tetrahedra, whose gradient has more such modes, need twice e and all of it: there u* stands
-/// in place of the first u^n, which costs an error of first order in dt.
+/// and tetrahedra, whose gradient has more such modes, need twice e and all of it. With L from the
+/// cell's own side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f)
+/// L_f, exact for a linear velocity with a kink, and k grows by what makes all of e stable,
+/// i = e / 1.5 - k - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of the
+/// first u^n. Either costs an error of first order in dt.
 class Stiffness {
  public:
   /// Collective.
   explicit Stiffness(const Mesh& mesh);
 
-  /// Collective. kappa_f: the implicit coefficient, k, on triangles and tetrahedra k + e; lambda
-  /// linear between the cells, times the face's alpha; zero outside the band of this and the last
-  /// call. force += the explicit rest of the second.
+  /// Collective. kappa_f: the implicit coefficient, k, on triangles and tetrahedra k + i or k + e;
+  /// lambda linear between the cells, times the face's alpha; zero outside the band of this and the
+  /// last call. force += the explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
              const FaceWeights& weights, const Band& band);
 

@@ -2,6 +2,7 @@
 // A soft solid and what moves it: everything a scene without solid does not have.
 
 #include <functional>
+#include <optional>
 #include <variant>
 
 #include "libfsi/field/band.hpp"
@@ -11,6 +12,7 @@
 #include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/neo_hookean.hpp"
 #include "libfsi/solid/reference_map.hpp"
+#include "libfsi/solid/sided_gradient.hpp"
 #include "libfsi/solid/stiffness.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
@@ -77,10 +79,11 @@ struct Body {
   Kinematics kinematics;
   solid::NeoHookean law;
   solid::Stiffness stiffness;
-  CellField<solid::SymGradient> grad;  ///< scratch of both
-  vof::Filled filled;                  ///< volume and its error at the start
-  std::vector<Index> last_cells;       ///< where B was set
-  vof::AdvectReport advected;          ///< of the last step
+  std::optional<solid::SidedGradient> sided;  ///< where the velocity gradient needs it
+  CellField<solid::SymGradient> grad;         ///< scratch of both
+  vof::Filled filled;                         ///< volume and its error at the start
+  std::vector<Index> last_cells;              ///< where B was set
+  vof::AdvectReport advected;                 ///< of the last step
 };
 
 }  // namespace fsi

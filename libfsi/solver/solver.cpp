@@ -160,7 +160,8 @@ void Solver::advance_interface(Real t) {
 
 void Solver::transport_elastic() {
   const Profile::Call call(profile_, calls_.transport_elastic);
-  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
+  const bool sided = body_->sided.has_value();
+  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_, sided};
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
@@ -168,6 +169,7 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
+        if (sided) body_->sided->apply(L_, state_.u, u_b_, body_->alpha, k.strained());
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
@@ -187,15 +189,17 @@ void Solver::stiffen(Real dt) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
     mesh_.halo.update(L_);
   }
-  body_->stiffness.apply(
-      kappa_, force_, {body_->lambda, body_->alpha_f, state_.u, L_, physics_.G, physics_.rho, dt},
-      weights_, body_->band);
+  body_->stiffness.apply(kappa_, force_,
+                         {body_->lambda, body_->alpha_f, state_.u, L_, body_->alpha, physics_.G,
+                          physics_.rho, dt, body_->sided.has_value()},
+                         weights_, body_->band);
 }
 
 void Solver::set_elastic_force() {
   const Profile::Call call(profile_, calls_.set_elastic_force);
   const solid::Strained strained{body_->B, body_->alpha,
-                                 body_->extended() ? &body_->alpha_f : nullptr};
+                                 body_->extended() ? &body_->alpha_f : nullptr,
+                                 body_->sided.has_value()};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
   if (body_force_)

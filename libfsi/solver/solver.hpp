@@ -143,7 +143,9 @@ class Solver {
   std::string objection(Real dt) const;
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   /// Whether the momentum equation needs the velocity gradient everywhere.
-  bool needs_L() const { return weights_.skewed || weights_.non_orthogonal || mu_varies(); }
+  bool needs_L() const {
+    return weights_.skewed || weights_.non_orthogonal || mu_varies() || (body_ && body_->sided);
+  }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
   void hold_backup();

@@ -179,9 +179,10 @@ TEST(Slab, InterfaceInMidCell) {
 
 TEST(Slab, Triangles) {
   const auto [coarse, fine] = converge({viscous, KinematicsKind::log_conformation, true}, 16, 32);
-  EXPECT_LE(fine.u, 1e-3);
-  EXPECT_GE(order(coarse.u, fine.u), 1.3);
-  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 0.7);
+  EXPECT_LE(fine.u, 2e-4);
+  EXPECT_LE(fine.B_xy, 9e-4);
+  EXPECT_GE(order(coarse.u, fine.u), 1.8);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.5);
 }
 
 // The interface hardly moves here, 0.18 % of the walls.

@@ -1,0 +1,76 @@
+// The velocity gradient of the solid's and the fluid's own side.
+
+#include "libfsi/solid/sided_gradient.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+Real difference(const Tensor& a, const Tensor& b) {
+  const Tensor d = a + -1.0 * b;
+  return std::max({std::abs(d.xx), std::abs(d.xy), std::abs(d.xz), std::abs(d.yx), std::abs(d.yy),
+                   std::abs(d.yz), std::abs(d.zx), std::abs(d.zy), std::abs(d.zz)});
+}
+
+// u = (x^2 - y z, 2 x y + z^2, -4 x z) and (0, 3, 1) (x - 1/2) besides for x > 1/2.
+Vec3 velocity(const Vec3& x) {
+  const Real kink = std::max(x.x - 0.5, Real{0});
+  return {x.x * x.x - x.y * x.z, 2 * x.x * x.y + x.z * x.z + 3 * kink, -4 * x.x * x.z + kink};
+}
+Tensor exact(const Vec3& x) {
+  const Real kink = x.x > 0.5 ? 1 : 0;
+  return {2 * x.x, -x.z, -x.y, 2 * x.y + 3 * kink, 2 * x.x, 2 * x.z, -4 * x.z + kink, 0, -4 * x.x};
+}
+
+bool away_from_edges(const Vec3& x, int dim) {
+  return std::abs(x.y - 0.5) < 0.3 && (dim == 2 || std::abs(x.z - 0.5) < 0.3);
+}
+
+// Exact for a quadratic velocity with a kink on irregular triangles and tetrahedra, away from the
+// corners of the box, where too few neighbours are left.
+TEST(SidedGradient, IsExactForAQuadraticVelocityWithAKink) {
+  for (const Index depth : {0, 6}) {
+    test::BoxFile box{.n = {8, 6, depth}, .simplex = true};
+    box.moved = [](const Vec3& x) {
+      const Real inside = std::abs(x.x - 0.5) < 1e-9 ? 0 : 0.03;
+      return x + (inside * std::sin(9 * x.y + 5 * x.z) * x.x * (1 - x.x)) * Vec3{1, 0, 0};
+    };
+    const Mesh mesh = test::read_box(box);
+    EXPECT_TRUE(solid::has_simplices(mesh));
+    CellField<Vec3> u(mesh);
+    CellField<Real> alpha(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      u[c] = velocity(mesh.C[c]), alpha[c] = mesh.C[c].x < 0.5 ? 1 : 0;
+    BoundaryField<Vec3> u_b(mesh);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+      u_b[f - mesh.n_internal] = velocity(mesh.C[mesh.owner[f]] + mesh.d[f]);
+    CellField<Tensor> L(mesh);
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      if (std::abs(mesh.C[c].x - 0.5) < 0.35 && away_from_edges(mesh.C[c], mesh.dim))
+        cells.push_back(c);
+    solid::SidedGradient(mesh).apply(L, u, u_b, alpha, cells);
+    Real worst = 0;
+    for (const Index c : cells) {
+      Tensor expected = exact(mesh.C[c]);
+      if (mesh.dim == 2) expected.xz = expected.yz = expected.zz = 0;
+      worst = std::max(worst, difference(L[c], expected));
+    }
+    EXPECT_LE(global_max(worst), 1e-10);
+  }
+}
+
+TEST(SidedGradient, QuadsAreNoSimplices) {
+  EXPECT_FALSE(solid::has_simplices(test::read_box({.n = {4, 4, 0}})));
+  EXPECT_FALSE(solid::has_simplices(test::read_box({.n = {2, 2, 2}})));
+}
+
+}  // namespace
+}  // namespace fsi
