@@ -44,9 +44,9 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     const Index N = mesh_.neighbour[f];
     if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
     const Real d = norm(mesh_.d[f]);
-    Real e = d * std::sqrt(solid.rho * solid.G * l);
+    const Real wave = d * std::sqrt(solid.rho * solid.G * l);
+    Real e = simplex_ ? 2 * wave : std::max(0.0, wave - solid.alpha[f] * solid.mu_s);
     if (simplex_) {
-      e *= 2;
       kappa[f] += e;
     } else {
       // as much as stays stable beside k without an implicit part of its own
