@@ -55,7 +55,9 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
       e *= 2;
       kappa[f] += e;
     } else {
-      e = std::min(e, explicit_part * (kappa[f] + inertia));
+      // what the solid's own compact viscous term leaves to do
+      e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0},
+                     explicit_part * (kappa[f] + inertia));
     }
     // e g ((u_N - u_P) - (L_f . d))
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];

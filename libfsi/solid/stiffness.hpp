@@ -21,7 +21,7 @@ struct Stiffening {
   const CellField<Vec3>& u;         ///< owned and halo
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
   const CellField<Real>& fraction;  ///< alpha; owned and halo
-  Real G, rho, dt;
+  Real G, rho, mu_s, dt;
   bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
 };
 
@@ -33,16 +33,18 @@ struct Stiffening {
 /// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
 /// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda)^(1/2)
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda)^(1/2) - alpha mu_s, at least 0
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
-/// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, and
-/// is of third order elsewhere. Explicit, and so at most 1.5 (k + rho |d|^2 / (8 dt)). Triangles
-/// and tetrahedra, whose gradient has more such modes, need twice e and all of it. With L from the
-/// cell's own side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f)
-/// L_f, exact for a linear velocity with a kink, and k grows by what makes all of e stable,
-/// i = e / 1.5 - k - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of the
-/// first u^n. Either costs an error of first order in dt.
+/// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
+/// far as the solid's own viscosity, whose compact term does the same, does not. It is of third
+/// order, but at the surface, where L jumps, a stress of first order. Explicit, and so at most
+/// 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has more such modes,
+/// need 2 |d| (rho G alpha lambda)^(1/2) whatever mu_s is and all of it. With L from the cell's own
+/// side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f) L_f, exact
+/// for a linear velocity with a kink, and kappa grows by what makes all of e stable,
+/// i = e / 1.5 - kappa - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of
+/// the first u^n. Either costs an error of first order in dt.
 class Stiffness {
  public:
   /// Collective.

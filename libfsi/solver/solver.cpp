@@ -189,10 +189,19 @@ void Solver::stiffen(Real dt) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
     mesh_.halo.update(L_);
   }
-  body_->stiffness.apply(kappa_, force_,
-                         {body_->lambda, body_->alpha_f, state_.u, L_, body_->alpha, physics_.G,
-                          physics_.rho, dt, body_->sided.has_value()},
-                         weights_, body_->band);
+  // A map is less accurate with less damping where the surface lies in mid-cell.
+  const bool map = std::holds_alternative<solid::ReferenceMap>(body_->kinematics);
+  const solid::Stiffening solid{body_->lambda,
+                                body_->alpha_f,
+                                state_.u,
+                                L_,
+                                body_->alpha,
+                                physics_.G,
+                                physics_.rho,
+                                map ? 0 : physics_.mu_s,
+                                dt,
+                                body_->sided.has_value()};
+  body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
 }
 
 void Solver::set_elastic_force() {

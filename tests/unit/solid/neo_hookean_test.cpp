@@ -218,9 +218,11 @@ struct Stiff {
   bool inside(Index c) const { return norm(s.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
   void apply() {
     s.band.rebuild(s.alpha, 0.5);
-    stiffness.apply(kappa, s.force, {lambda, share, u, L, s.alpha, G, rho, dt}, s.weights, s.band);
+    const Stiffening solid{lambda, share, u, L, s.alpha, G, rho, mu_s, dt};
+    stiffness.apply(kappa, s.force, solid, s.weights, s.band);
   }
   static constexpr Real rho = 2, dt = 0.1, h = 0.125;
+  Real mu_s = 0;
   Solid s;
   CellField<Real> lambda;
   FaceField<Real> share;
@@ -270,6 +272,23 @@ TEST(Stiffness, PushesBackOnlyWhatAlternates) {
     if (norm(mesh.C[c] - Vec3{0.5, 0.5, 0}) > 0.1) continue;
     const Vec3 pushed = alternating.s.force[c];
     EXPECT_NEAR(pushed.y, -4 * e / (Stiff::h * Stiff::h) * sign(mesh.C[c]), 1e-10);
+  }
+}
+
+// What the solid's own viscosity damps is not damped twice.
+TEST(Stiffness, CountsTheSolidsViscosity) {
+  const auto sign = [](const Vec3& x) { return std::lround(8 * x.x - 0.5) % 2 == 0 ? 1.0 : -1.0; };
+  const Real whole = Stiff::h * std::sqrt(Stiff::rho * G * 2);
+  for (const Real mu_s : {0.9 * whole, 1.1 * whole}) {
+    Stiff stiff([&](const Vec3& x) { return Vec3{0, sign(x), 0}; });
+    stiff.mu_s = mu_s;
+    stiff.apply();
+    const Real e = std::max(0.0, whole - mu_s);
+    for (Index c = 0; c < stiff.s.mesh.n_cells; ++c) {
+      const Vec3& x = stiff.s.mesh.C[c];
+      if (norm(x - Vec3{0.5, 0.5, 0}) > 0.1) continue;
+      EXPECT_NEAR(stiff.s.force[c].y, -4 * e / (Stiff::h * Stiff::h) * sign(x), 1e-10);
+    }
   }
 }
 
