@@ -52,7 +52,7 @@ Real LogConformation::rate(std::span<const Index> cells, const Carrier& carrier,
   const FaceWeights& weights = carrier.weights;
   gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
   for (const Index c : extension_.last_ring()) grad[c] = {};
-  mesh_.halo.update(grad);
+  mesh_.halo.update(grad, extension_.near());
   Real fastest = 0;
   rate_.clear();
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -86,7 +86,7 @@ Real LogConformation::transport(const CellField<Real>& alpha, const Carrier& car
   set_L(alpha, carrier);
   rate(cells, carrier, grad);
   for (std::size_t i = 0; i < cells.size(); ++i) psi[cells[i]] += dt * rate_[i];
-  mesh_.halo.update(psi);
+  mesh_.halo.update(psi, extension_.near());
   const Real fastest = rate(core, carrier, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));

@@ -46,7 +46,7 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   const CellField<Real>& alpha = solid.alpha;
   clear(force, balance, grad, band);
   gradient(grad, alpha, B, stencil, mesh_, band.cells());
-  mesh_.halo.update(grad);
+  mesh_.halo.update(grad, band.listed());
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     const Vec3 d = mesh_.d[f], n = d / norm(d);
@@ -64,7 +64,7 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   if (weights.skewed && solid.alpha_f != nullptr) {
     for (const Index c : band.cells()) grad[c] = {};  // of B, which is level around the solid
     gradient(grad, B, stencil, mesh_, band.core());
-    mesh_.halo.update(grad);
+    mesh_.halo.update(grad, band.listed());
   }
   push(force, solid, weights, band, grad);
   mesh_.halo.update(force);

@@ -60,8 +60,8 @@ void Body::weigh() {
       },
       kinematics);
   if (extended()) vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
-  mesh.halo.update(B);
-  mesh.halo.update(lambda);
+  mesh.halo.update(B, band.listed());
+  mesh.halo.update(lambda, band.listed());
 }
 
 void Body::list(io::Snapshot& snapshot) {

@@ -152,7 +152,7 @@ void Solver::stiffen(Real dt) {
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
-    mesh_.halo.update(L_);
+    mesh_.halo.update(L_, body_->band.listed());
   }
   body_->stiffness.apply(
       kappa_, force_, {body_->lambda, body_->alpha_f, state_.u, L_, physics_.G, physics_.rho, dt},
