@@ -5,7 +5,8 @@ namespace fsi {
 Band::Band(const Mesh& mesh)
     : mesh_(mesh),
       cell_stamp_(static_cast<std::size_t>(mesh.n_owned), 0),
-      face_stamp_(static_cast<std::size_t>(mesh.n_faces), 0) {
+      face_stamp_(static_cast<std::size_t>(mesh.n_faces), 0),
+      listed_(mesh) {
   std::vector<std::vector<Index>> around(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned));
   for (Index c = 0; c < mesh.n_owned; ++c)
     for (const Index n : mesh.cell_neighbours[c])
@@ -20,12 +21,14 @@ Band::Band(const Mesh& mesh)
 }
 
 void Band::rebuild(const CellField<Real>& q, Real threshold) {
+  for (const Index c : cells_) listed_[c] = 0;
   last_core_.swap(core_);
   core_.clear(), cells_.clear(), faces_.clear();
   ++calls_;
   const auto list = [&](Index c) {
     if (c >= mesh_.n_owned || cell_stamp_[c] == calls_) return;
     cell_stamp_[c] = calls_;
+    listed_[c] = 1;
     cells_.push_back(c);
   };
   const auto list_face = [&](Index f) {
@@ -45,6 +48,7 @@ void Band::rebuild(const CellField<Real>& q, Real threshold) {
     for (const Index f : mesh_.cell_faces[c]) list_face(f);
   // The halo cell may be in the other rank's band although the owned one is not in this one's.
   for (const Index f : between_ranks_) list_face(f);
+  mesh_.halo.update(listed_);
 }
 
 }  // namespace fsi

@@ -14,7 +14,7 @@ class Band {
  public:
   explicit Band(const Mesh& mesh);
 
-  /// The set {c : q[c] >= threshold}. q: owned and halo.
+  /// Collective. The set {c : q[c] >= threshold}. q: owned and halo.
   void rebuild(const CellField<Real>& q, Real threshold);
 
   /// Owned cells of the set.
@@ -23,6 +23,9 @@ class Band {
   const std::vector<Index>& last_core() const { return last_core_; }
   /// Owned cells of the set, in the order of core(), then those around it.
   const std::vector<Index>& cells() const { return cells_; }
+  /// 1 in `cells`, also in those of other ranks; 0 elsewhere: where a field of the band needs its
+  /// halo.
+  const CellField<Real>& listed() const { return listed_; }
   /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
   const std::vector<Index>& faces() const { return faces_; }
   /// Row i: owned cells that share a vertex with halo cell n_owned + i.
@@ -33,6 +36,7 @@ class Band {
   Csr halo_neighbours_;
   std::vector<Index> between_ranks_, core_, last_core_, cells_, faces_;
   std::vector<std::int32_t> cell_stamp_, face_stamp_;
+  CellField<Real> listed_;
   std::int32_t calls_ = 0;
 };
 

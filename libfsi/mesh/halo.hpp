@@ -33,6 +33,16 @@ class Halo {
     update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>);
   }
 
+  /// Collective. The same of a field that is zero but for the cells where `where` is not: only
+  /// those travel, the halo's others become zero. `where`: n_cells, itself up to date in the halo.
+  /// Allocates nothing once the most cells were sent.
+  void update(Real* values, int width, const Real* where) const;
+  template <class Field, class Flags>
+  void update(Field& field, const Flags& where) const {
+    update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>,
+           where.data());
+  }
+
   /// Collective. The reverse: adds every halo copy's value to the owner's cell; halo part
   /// unchanged.
   void add_to_owner(Real* values, int width) const;

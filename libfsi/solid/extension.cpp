@@ -15,15 +15,16 @@ bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
 }  // namespace
 
 Extension::Extension(const Mesh& mesh)
-    : mesh_(mesh),
-      inner_(mesh),
-      ring_of_(mesh),
-      stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {}
+    : mesh_(mesh), zone_(mesh), ring_of_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {}
 
 void Extension::mark(const CellField<Real>& alpha, const Band& known) {
-  for (const Index c : known.last_core()) inner_[c] = 0;
-  for (const Index c : known.core()) inner_[c] = is_inner(c, alpha, mesh_) ? 1 : 0;
-  mesh_.halo.update(inner_);
+  for (const Index c : near_) zone_[c] = 0;
+  near_ = set_;
+  near_.insert(near_.end(), known.cells().begin(), known.cells().end());
+  for (const Index c : near_) zone_[c] = 1;
+  for (const Index c : known.core())
+    if (is_inner(c, alpha, mesh_)) zone_[c] = 2;
+  mesh_.halo.update(zone_);
 }
 
 void Extension::list_ring(Real ring, const Band& known) {
@@ -59,8 +60,8 @@ void Extension::fill(CellField<SymTensor>& T, Real ring) {
   }
   for (std::size_t i = 0; i < ring_.size(); ++i)
     T[ring_[i]] = values_[i], ring_of_[ring_[i]] = ring;
-  mesh_.halo.update(T);
   mesh_.halo.update(ring_of_);
+  mesh_.halo.update(T, ring_of_);
 }
 
 void Extension::apply(CellField<SymTensor>& T, const Band& known) {
@@ -68,8 +69,8 @@ void Extension::apply(CellField<SymTensor>& T, const Band& known) {
   last_set_.swap(set_);
   set_ = known.core();
   for (const Index c : set_) ring_of_[c] = 1;
-  mesh_.halo.update(T);
   mesh_.halo.update(ring_of_);
+  mesh_.halo.update(T, ring_of_);
   constexpr int rings = 3;
   for (int ring = 1; ring <= rings; ++ring) {
     list_ring(1 + ring, known);
@@ -79,7 +80,6 @@ void Extension::apply(CellField<SymTensor>& T, const Band& known) {
   }
   for (const Index c : last_set_)
     if (ring_of_[c] == 0) T[c] = {};
-  mesh_.halo.update(T);
 }
 
 }  // namespace fsi::solid

@@ -52,7 +52,7 @@ Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad)
   const FaceWeights& weights = carrier.weights;
   gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
   for (const Index c : extension_.last_ring()) grad[c] = {};
-  mesh_.halo.update(grad);
+  mesh_.halo.update(grad, extension_.near());
   Real fastest = 0;
   rate_.clear();
   for (std::size_t i = 0; i < cells.size(); ++i) {

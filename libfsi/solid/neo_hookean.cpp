@@ -26,7 +26,7 @@ void NeoHookean::set_slope(const CellField<Real>& alpha, const GradientStencil& 
       const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
       slope_[c] += (alpha[n] - alpha[c]) * (owner ? stencil.owner[f] : stencil.neighbour[f]);
     }
-  mesh_.halo.update(slope_);
+  mesh_.halo.update(slope_, band.listed());
 }
 
 void NeoHookean::push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
@@ -58,7 +58,7 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   const CellField<Real>& alpha = solid.alpha;
   clear(force, balance, grad, band);
   gradient(grad, alpha, B, stencil, mesh_, band.cells());
-  mesh_.halo.update(grad);
+  mesh_.halo.update(grad, band.listed());
   if (solid.along_normal) set_slope(alpha, stencil, band);
   constexpr Real level = 1e-6;  // change of alpha across a face that counts as none
   for (const Index f : band.faces()) {
@@ -80,7 +80,7 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   if (weights.skewed && solid.alpha_f != nullptr) {
     for (const Index c : band.cells()) grad[c] = {};  // of B, which is level around the solid
     gradient(grad, B, stencil, mesh_, band.core());
-    mesh_.halo.update(grad);
+    mesh_.halo.update(grad, band.listed());
   }
   push(force, solid, weights, band, grad);
   mesh_.halo.update(force);

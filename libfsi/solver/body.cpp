@@ -64,8 +64,8 @@ void Body::weigh() {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
   else
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
-  mesh.halo.update(B);
-  mesh.halo.update(lambda);
+  mesh.halo.update(B, band.listed());
+  mesh.halo.update(lambda, band.listed());
 }
 
 void Body::list(io::Snapshot& snapshot) {

@@ -187,7 +187,7 @@ void Solver::stiffen(Real dt) {
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
-    mesh_.halo.update(L_);
+    mesh_.halo.update(L_, body_->band.listed());
   }
   // A map is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body_->kinematics);

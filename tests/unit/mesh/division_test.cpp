@@ -171,6 +171,26 @@ TEST(Halo, UpdateBringsTheOwnersValues) {
   }
 }
 
+TEST(Halo, UpdateOfAFewCellsIsThatOfAll) {
+  const TextFile file(BlockText(block_of(CellType::hex)).text());
+  const Mesh mesh = divided(file.path(), {"left", "right"});
+  const auto n = static_cast<std::size_t>(mesh.n_cells);
+  for (const GlobalIndex every : {1, 2, 7, 1000}) {  // the last: no cell at all
+    std::vector<Real> where(n, -1);
+    for (Index c = 0; c < mesh.n_owned; ++c) where[c] = mesh.global_id[c] % every == 1 % every;
+    mesh.halo.update(where.data(), 1);
+    for (const int width : {1, 6, 18, 3}) {
+      std::vector<Real> all(width * n, -1);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(width) * mesh.n_owned; ++i)
+        all[i] = where[i / width] * (1 + 0.1 * static_cast<Real>(i));
+      std::vector<Real> few = all;
+      mesh.halo.update(all.data(), width);
+      mesh.halo.update(few.data(), width, where.data());
+      EXPECT_EQ(few, all);
+    }
+  }
+}
+
 TEST(Halo, AddToOwnerSumsTheCopies) {
   const TextFile file(BlockText(block_of(CellType::tet)).text());
   const Mesh mesh = divided(file.path(), {});
