@@ -218,8 +218,8 @@ struct Stiff {
   bool inside(Index c) const { return norm(s.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
   void apply() {
     s.band.rebuild(s.alpha, 0.5);
-    const Stiffening solid{lambda, share, u, L, s.alpha, G, rho, mu_s, dt};
-    stiffness.apply(kappa, s.force, solid, s.weights, s.band);
+    const solid::Stiffening stiff{lambda, share, u, L, s.alpha, G, rho, mu_s, dt};
+    stiffness.apply(kappa, s.force, stiff, s.weights, s.band);
   }
   static constexpr Real rho = 2, dt = 0.1, h = 0.125;
   Real mu_s = 0;
