@@ -148,14 +148,12 @@ void Solver::advance_interface(Real t) {
   const Real longest = vof::interface_dt(body_->alpha, state_.phi, courant, mesh_);
   const int parts =
       static_cast<int>(std::clamp(std::ceil(solid_dt_ / longest), Real{1}, parts_max));
-  Real remaining = 0;
+  body_->advected = {};
   for (int i = 0; i < parts; ++i) {
-    body_->advected = vof::advect(body_->alpha, body_->interface, state_.phi, state_.u,
-                                  solid_dt_ / parts, mesh_, body_->advect_scratch);
+    body_->advected.add(vof::advect(body_->alpha, body_->interface, state_.phi, state_.u,
+                                    solid_dt_ / parts, mesh_, body_->advect_scratch));
     vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
-    remaining = std::max(remaining, body_->advected.remaining);
   }
-  body_->advected.remaining = remaining;
 }
 
 void Solver::transport_elastic() {

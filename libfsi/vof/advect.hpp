@@ -1,6 +1,7 @@
 #pragma once
 // The solid's volume fraction carried by the flux, cut from the planes of the interface.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,15 @@ struct AdvectReport {
   Real overshoot = 0;  ///< largest excess over [0, 1] before redistribution
   Real remaining = 0;  ///< and after it; above 1e-12 only where the Courant number exceeds one
   Real returned = 0;   ///< volume given back to the interface, |sum|: divergence of phi and wisps
+
+  /// Of this part of a step and the next one.
+  void add(const AdvectReport& next) {
+    courant += next.courant;
+    rounds = std::max(rounds, next.rounds);
+    overshoot = std::max(overshoot, next.overshoot);
+    remaining = std::max(remaining, next.remaining);
+    returned += next.returned;
+  }
 };
 
 /// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
