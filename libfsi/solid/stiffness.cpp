@@ -27,7 +27,7 @@ Stiffness::Stiffness(const Mesh& mesh) : mesh_(mesh), simplex_(has_simplices(mes
 void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
   constexpr Real share = 0.3;
-  constexpr Real explicit_part = 1.5;  // of k + rho |d|^2 / (8 dt): stable without more of k
+  constexpr Real explicit_part = 1.5;  // of kappa + rho |d|^2 / (8 dt): stable so
   const CellField<Real>& lambda = solid.lambda;
   for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();

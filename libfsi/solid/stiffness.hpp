@@ -27,32 +27,32 @@ struct Stiffening {
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
 ///
-///   div(k grad (u* - u^n)),   k = 0.3 dt G alpha lambda
+///   div(kappa grad (u* - u^n)),   kappa = 0.3 dt G alpha lambda_B
 ///
 /// stands in for the change of the elastic stress over the step, which with leapfrog is
 /// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
 /// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda)^(1/2) - alpha mu_s, at least 0
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda_B)^(1/2) - alpha mu_s, at least 0
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
 /// far as the solid's own viscosity, whose compact term does the same, does not. It is of third
 /// order, but at the surface, where L jumps, a stress of first order. Explicit, and so at most
 /// 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has more such modes,
-/// need 2 |d| (rho G alpha lambda)^(1/2) whatever mu_s is and all of it. With L from the cell's own
-/// side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f) L_f, exact
-/// for a linear velocity with a kink, and kappa grows by what makes all of e stable,
-/// i = e / 1.5 - kappa - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of
-/// the first u^n. Either costs an error of first order in dt.
+/// need 2 |d| (rho G alpha lambda_B)^(1/2) whatever mu_s is and all of it. With L from the cell's
+/// own side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f) L_f,
+/// exact for a linear velocity with a kink, and kappa grows by what makes all of e stable, i = e
+/// / 1.5 - kappa - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of the
+/// first u^n. Either costs an error of first order in dt.
 class Stiffness {
  public:
   /// Collective.
   explicit Stiffness(const Mesh& mesh);
 
-  /// Collective. kappa_f: the implicit coefficient, k, on triangles and tetrahedra k + i or k + e;
-  /// lambda linear between the cells, times the face's alpha; zero outside the band of this and the
-  /// last call. force += the explicit rest of the second.
+  /// Collective. kappa_f: the implicit coefficient, on triangles and tetrahedra with i or e added;
+  /// lambda_B linear between the cells, times the face's alpha; zero outside the band of this and
+  /// the last call. force += the explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
              const FaceWeights& weights, const Band& band);
 

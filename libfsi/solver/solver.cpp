@@ -113,7 +113,7 @@ void Solver::step(Real dt) {
                           // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
-    stiffen(dt);          // + div(k grad (u* - u^n)) + ...           stiffness.hpp
+    stiffen(dt);          // + div(kappa grad (u* - u^n)) + ...       stiffness.hpp
   }
   predict_momentum(dt);    // du/dt + div(u u) = ...                  [Matsumiya25] (12)
   predict_flux(dt);        // phi* from u*                            [Rhie83]
