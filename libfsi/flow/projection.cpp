@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -151,6 +152,29 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
   }
   gradient(grad_q, q, zero_, stencil_, mesh_);
   return total;
+}
+
+void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh) {
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += mesh.owner[f] == c ? phi[f] : -phi[f];
+    div[c] = sum / mesh.V[c];
+  }
+}
+
+// u* + grad q obeys the predictor, u^(n+1) does not: theta mu Lap grad q = grad(theta mu Lap q)
+// is left, with Lap q = div u*                                          [Brown01], [Timmermans96]
+// Where p alternates, the predicted flux answers as much as in the worst case dim times as it does
+// to a smooth p: chi must be less than 2 / dim.
+void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
+                          const FaceField<Real>& kappa, Real theta, const Mesh& mesh) {
+  constexpr Real chi = 0.5;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real nu = std::numeric_limits<Real>::max();
+    for (const Index f : mesh.cell_faces[c]) nu = std::min(nu, theta * mu[f] + kappa[f]);
+    p[c] -= chi * nu * div[c];
+  }
+  mesh.halo.update(p);
 }
 
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh) {

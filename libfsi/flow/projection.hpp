@@ -70,6 +70,15 @@ class Projection {
   LinearSystem system_;
 };
 
+/// div_c = sum_f phi_f / V of owned cells.
+void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);
+
+/// p_c -= chi nu_c div u*, nu_c the mean of theta mu + kappa over the faces of the cell: what the
+/// implicit viscous term makes of the correction grad q. div: of the predicted flux, owned. p:
+/// owned and halo.
+void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
+                          const FaceField<Real>& kappa, Real theta, const Mesh& mesh);
+
 /// max over owned cells of all ranks of |sum_f phi_f| / V.
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);
 

@@ -2,68 +2,29 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), slope_(mesh) {}
+NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), level_(mesh) {}
 
 void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
                        CellField<SymGradient>& grad, const Band& band) {
-  for (const Index c : last_cells_) force[c] = {}, grad[c] = {}, slope_[c] = {};
+  for (const Index c : last_cells_) force[c] = level_[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
-    force[mesh_.owner[f]] = {};
-    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = {};
+    force[mesh_.owner[f]] = level_[mesh_.owner[f]] = {};
+    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = level_[mesh_.neighbour[f]] = {};
   }
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 }
 
-void NeoHookean::set_slope(const CellField<Real>& alpha, const GradientStencil& stencil,
-                           const Band& band) {
-  for (const Index c : band.cells())
-    for (const Index f : mesh_.cell_faces[c]) {
-      if (f >= mesh_.n_internal) continue;
-      const bool owner = mesh_.owner[f] == c;
-      const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
-      slope_[c] += (alpha[n] - alpha[c]) * (owner ? stencil.owner[f] : stencil.neighbour[f]);
-    }
-  mesh_.halo.update(slope_, band.listed());
-}
-
-void NeoHookean::push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
-                      const Band& band, const CellField<SymGradient>& grad) const {
+void NeoHookean::push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                            const FaceWeights& weights, const Band& band,
+                            const CellField<SymGradient>& grad) const {
   const CellField<SymTensor>& B = solid.B;
   const CellField<Real>& alpha = solid.alpha;
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
-    if (f >= mesh_.n_internal) continue;
-    const Index N = mesh_.neighbour[f];
-    const Real lambda = weights.lambda[f];
-    // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = B or alpha B
-    const bool sharp = solid.alpha_f != nullptr;
-    const Real a_P = sharp ? 1 : alpha[P], a_N = sharp ? 1 : alpha[N];
-    SymTensor T = (1 - lambda) * a_P * B[P] + lambda * a_N * B[N];
-    if (weights.skewed)
-      T +=
-          (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
-    const Vec3 t = dot((sharp ? (*solid.alpha_f)[f] : 1) * G_ * dev(T), mesh_.Sf[f]);
-    force[P] += (1 / mesh_.V[P]) * t;
-    force[N] -= (1 / mesh_.V[N]) * t;
-  }
-}
-
-void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
-                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
-                       CellField<SymGradient>& grad) {
-  const CellField<SymTensor>& B = solid.B;
-  const CellField<Real>& alpha = solid.alpha;
-  clear(force, balance, grad, band);
-  gradient(grad, alpha, B, stencil, mesh_, band.cells());
-  mesh_.halo.update(grad, band.listed());
-  if (solid.along_normal) set_slope(alpha, stencil, band);
-  constexpr Real level = 1e-6;  // change of alpha across a face that counts as none
-  for (const Index f : band.faces()) {
-    const Index P = mesh_.owner[f];
-    const Vec3 d = mesh_.d[f];
+    const Vec3 d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
       // tau_b = tau_P + grad tau . d
       const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
@@ -73,17 +34,84 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
     const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
-    const Vec3 slope = (1 - lambda) * slope_[P] + lambda * slope_[N];
-    const Vec3 n = norm(slope) * norm(d) > level ? slope / norm(slope) : d / norm(d);
     balance[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
+    // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = alpha B
+    SymTensor T = (1 - lambda) * alpha[P] * B[P] + lambda * alpha[N] * B[N];
+    if (weights.skewed)
+      T +=
+          (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
+    const Vec3 t = dot(G_ * dev(T), mesh_.Sf[f]);
+    force[P] += (1 / mesh_.V[P]) * t;
+    force[N] -= (1 / mesh_.V[N]) * t;
   }
-  if (weights.skewed && solid.alpha_f != nullptr) {
-    for (const Index c : band.cells()) grad[c] = {};  // of B, which is level around the solid
-    gradient(grad, B, stencil, mesh_, band.core());
-    mesh_.halo.update(grad, band.listed());
+}
+
+void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                            const FaceWeights& weights, const GradientStencil& stencil,
+                            const Band& band, const CellField<SymGradient>& grad) {
+  const CellField<SymTensor>& B = solid.B;
+  const CellField<Real>& alpha = solid.alpha;
+  for (const Index f : band.faces()) {
+    const Index P = mesh_.owner[f];
+    const Real a_f = (*solid.alpha_f)[f];
+    const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
+    if (f >= mesh_.n_internal) {
+      force[P] += (a_f / mesh_.V[P]) * dot(G_ * dev(B[P] + along(grad[P], d)), S);
+      continue;
+    }
+    const Index N = mesh_.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    const auto rise = [&](const Vec3& r) {
+      return (1 - lambda) * along(grad[P], r) + lambda * along(grad[N], r);
+    };
+    SymTensor T = (1 - lambda) * B[P] + lambda * B[N];
+    if (weights.skewed) T += rise(weights.skew[f]);
+    const SymTensor tau = G_ * dev(T);
+    const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
+    const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);
+    // alpha_f (tau - s I) + alpha_c s I, and the level part
+    force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
+    force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
+    level_[P] += jump * stencil.owner[f];
+    level_[N] -= jump * stencil.neighbour[f];
+    // what alpha dev B rises between the cells beyond the jump, less the mean of alpha grad dev B
+    const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
+                             (1 - lambda) * alpha[P] * along(grad[P], d) -
+                             lambda * alpha[N] * along(grad[N], d);
+    balance[f] = jump + dot(n, dot(G_ * dev(smooth), n));
   }
-  push(force, solid, weights, band, grad);
+  mesh_.halo.update(level_, band.listed());
+  for (const Index c : band.cells()) force[c] += level_[c];
+  for (const Index f : band.faces()) {
+    if (f >= mesh_.n_internal) continue;
+    const Real lambda = weights.lambda[f];
+    balance[f] -= dot((1 - lambda) * level_[mesh_.owner[f]] + lambda * level_[mesh_.neighbour[f]],
+                      mesh_.d[f]);
+  }
+}
+
+void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                       CellField<SymGradient>& grad) {
+  clear(force, balance, grad, band);
+  const bool sharp = solid.alpha_f != nullptr;
+  if (sharp)
+    gradient(grad, solid.B, stencil, mesh_, band.core());
+  else
+    gradient(grad, solid.alpha, solid.B, stencil, mesh_, band.cells());
+  mesh_.halo.update(grad, band.listed());
+  if (sharp)
+    push_sharp(force, balance, solid, weights, stencil, band, grad);
+  else
+    push_mixed(force, balance, solid, weights, band, grad);
   mesh_.halo.update(force);
+}
+
+void add_body_force(CellField<Vec3>& force, const CellField<Real>& alpha, const Vec3& f,
+                    const Mesh& mesh, std::span<const Index> cells) {
+  if (f == Vec3{}) return;
+  for (const Index c : cells) force[c] += alpha[c] * f;
+  mesh.halo.update(force);
 }
 
 }  // namespace fsi::solid

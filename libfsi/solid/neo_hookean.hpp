@@ -12,7 +12,7 @@ struct Strained {
   const CellField<Real>& alpha;      ///< owned and halo
   const FaceField<Real>* alpha_f{};  ///< part of solid at the band's faces; B is then known around
                                      ///< the solid as well. None: from alpha B of the cells
-  bool along_normal = false;         ///< the face flux is balanced along the surface's normal
+  const FaceField<Vec3>* normal{};   ///< of the interface there, zero without one; with alpha_f
 };
 
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
@@ -21,14 +21,16 @@ class NeoHookean {
   NeoHookean(const Mesh& mesh, Real G);
 
   /// Collective. tau = G dev(alpha B)                                     [Matsumiya25] (11)
-  /// force_c = (1/V) sum_f tau_f . S_f, tau_f = alpha_f G dev B_f with B_f linear between cells, or
-  /// without alpha_f alpha B linear between cells, as in the paper; with skewness correction.
-  /// At boundaries alpha B continues linearly.
-  /// balance_f = (s_N - s_P) - (grad s)_f . d, s = n . tau . n along d, which vanishes for a linear
-  /// stress. With along_normal n is that of the surface, along grad alpha, where that is near:
-  /// where tau jumps the pressure jumps by m . tau . m, m normal to the surface, and what
-  /// n . tau . n with another n has besides, up to |tau|, drives a flux through the face.
-  /// Zero outside the band of this and of the last call. force: owned and halo.
+  /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha B linear between cells, as in the paper.
+  /// With alpha_f, tau_f = G dev B_f of B linear between cells, m the normal and s = m . tau_f . m,
+  ///   force_c = (1/V) sum_f (alpha_f (tau_f - s I) + alpha_c s I) . S_f
+  ///             + sum_f g_cf s (alpha_n - alpha_c):
+  /// the part that a jump of the pressure bears is differenced as the pressure is, by the weights
+  /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
+  /// At boundaries alpha B (with alpha_f: B) continues linearly.
+  /// balance_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f that of B
+  /// times alpha_f, and that of the level part. It vanishes for a linear stress. Zero outside the
+  /// band of this and of the last call. force: owned and halo.
   /// grad: scratch that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
              const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
@@ -39,14 +41,21 @@ class NeoHookean {
  private:
   void clear(CellField<Vec3>& force, FaceField<Real>& balance, CellField<SymGradient>& grad,
              const Band& band);
-  void set_slope(const CellField<Real>& alpha, const GradientStencil& stencil, const Band& band);
-  void push(CellField<Vec3>& force, const Strained& solid, const FaceWeights& weights,
-            const Band& band, const CellField<SymGradient>& grad) const;
+  void push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                  const FaceWeights& weights, const Band& band,
+                  const CellField<SymGradient>& grad) const;
+  void push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
+                  const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                  const CellField<SymGradient>& grad);
 
   const Mesh& mesh_;
   Real G_;
-  CellField<Vec3> slope_;                       // grad alpha, for along_normal
+  CellField<Vec3> level_;                       // sum_f g_cf s (alpha_n - alpha_c)
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
+
+/// Collective. force_c += alpha_c f on the listed cells and halo; nothing to do for f = 0.
+void add_body_force(CellField<Vec3>& force, const CellField<Real>& alpha, const Vec3& f,
+                    const Mesh& mesh, std::span<const Index> cells);
 
 }  // namespace fsi::solid

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/one_sided.hpp"
 #include "libfsi/solid/quadratic_fit.hpp"
 
@@ -39,9 +38,9 @@ bool has_simplices(const Mesh& mesh) {
 }
 
 void SidedGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
-                          const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                          const BoundaryField<Vec3>& u_b, const CellField<Real>& inside,
                           std::span<const Index> cells) {
-  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  const auto known = [&](Index c) { return inside[c] > 0; };
   const auto none = [](Index) { return false; };
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();

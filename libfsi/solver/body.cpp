@@ -20,6 +20,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       alpha(mesh),
       B(mesh),
       alpha_f(mesh),
+      normal_f(mesh),
       lambda(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),
@@ -60,10 +61,12 @@ void Body::weigh() {
         eigenvalue_min = k.weigh(B, lambda, alpha, k.extended ? band.cells() : band.core());
       },
       kinematics);
-  if (extended())
+  if (extended()) {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
-  else
+    vof::face_normal(normal_f, alpha, interface, mesh, band.faces());
+  } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
+  }
   mesh.halo.update(B, band.listed());
   mesh.halo.update(lambda, band.listed());
 }

@@ -58,6 +58,12 @@ struct Body {
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
   }
+  /// 1 in the cells that carry the solid's strain, 0 elsewhere, where the velocity gradient is that
+  /// of one side of its surface; none where it is not.
+  const CellField<Real>* inside() const {
+    const auto* k = std::get_if<solid::LogConformation>(&kinematics);
+    return k != nullptr && sided ? &k->own() : nullptr;
+  }
   /// B of any cell, the unit tensor where there is none.
   SymTensor B_of(Index c) const {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
@@ -65,12 +71,14 @@ struct Body {
 
   const Mesh& mesh;
   const FaceWeights& weights;
-  CellField<Real> alpha;     ///< volume fraction of the solid
-  CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;   ///< part of solid at the band's faces
-  CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
-  Real t = 0;                ///< time of alpha and B
-  solid::Strain strain;      ///< in the last step
+  CellField<Real> alpha;    ///< volume fraction of the solid
+  CellField<SymTensor> B;   ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;  ///< part of solid at the band's faces
+  FaceField<Vec3>
+      normal_f;            ///< of the interface there where B is extended, zero where there is none
+  CellField<Real> lambda;  ///< largest eigenvalue of B; owned and halo
+  Real t = 0;              ///< time of alpha and B
+  solid::Strain strain;    ///< in the last step
   Real eigenvalue_min = 1;   ///< of B on this rank
   vof::Interface interface;  ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;

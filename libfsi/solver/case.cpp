@@ -52,6 +52,11 @@ TimeSetup read_time(Options& options) {
       "time_step", 0, {.help = "fixed step; 0: as the limits allow", .unit = "time", .min = 0});
   time.step_max =
       options.real("time_step_max", 0, {.help = "largest step; 0: none", .unit = "time", .min = 0});
+  time.step_first = options.real(
+      "time_step_first", 0,
+      {.help = "first step, from which the next ones grow by a tenth each; 0: none of that",
+       .unit = "time",
+       .min = 0});
   return time;
 }
 
@@ -176,6 +181,9 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
   constexpr Real strain = 0.4;  // below what a step is rejected for
   if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});
+  constexpr Real growth = 1.1;
+  if (time.step_first > 0)
+    all.push_back({time.step_first * std::pow(growth, solver.state().step), "start"});
   if (time.step_max > 0) all.push_back({time.step_max, "step_max"});
   return all;
 }

@@ -14,8 +14,9 @@ namespace fsi {
 /// How time advances.
 struct TimeSetup {
   Real end = 1, courant = 0.5;
-  Real step = 0;      ///< fixed step; 0: as large as the limits allow
-  Real step_max = 0;  ///< 0: none
+  Real step = 0;        ///< fixed step; 0: as large as the limits allow
+  Real step_max = 0;    ///< 0: none
+  Real step_first = 0;  ///< the next ones grow by a tenth each; 0: none of that
 };
 
 /// What is written, where and how often.

@@ -56,6 +56,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       force_(mesh),
       L_(mesh),
       q_(mesh),
+      divergence_(mesh),
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
       balance_(mesh),
@@ -167,7 +168,7 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
-        if (sided) body_->sided->apply(L_, state_.u, u_b_, body_->alpha, k.strained());
+        if (sided) body_->sided->apply(L_, state_.u, u_b_, *body_->inside(), k.strained());
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
@@ -193,20 +194,18 @@ void Solver::stiffen(Real dt) {
                                 body_->alpha_f,
                                 state_.u,
                                 L_,
-                                body_->alpha,
                                 physics_.G,
                                 physics_.rho,
                                 map ? 0 : physics_.mu_s,
                                 dt,
-                                body_->sided.has_value()};
+                                body_->inside()};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
 }
 
 void Solver::set_elastic_force() {
   const Profile::Call call(profile_, calls_.set_elastic_force);
   const solid::Strained strained{body_->B, body_->alpha,
-                                 body_->extended() ? &body_->alpha_f : nullptr,
-                                 body_->sided.has_value()};
+                                 body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
   if (body_force_)
@@ -233,6 +232,7 @@ void Solver::predict_flux(Real dt) {
 
 void Solver::project(Real dt) {
   const Profile::Call call(profile_, calls_.project);
+  flow::divergence(divergence_, state_.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   const Solve solve =
       projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
@@ -240,6 +240,7 @@ void Solver::project(Real dt) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
   }
+  flow::add_viscous_pressure(state_.p, divergence_, mu_, kappa_, momentum_.theta_at(dt), mesh_);
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;
 }

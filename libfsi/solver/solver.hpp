@@ -165,7 +165,7 @@ class Solver {
   BoundaryField<Real> p_b_;
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
-  CellField<Real> q_;
+  CellField<Real> q_, divergence_;
   FaceField<Real> mu_, kappa_, balance_;
   GradientStencil u_stencil_;
   flow::Projection projection_;

@@ -69,4 +69,16 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
   }
 }
 
+void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
+                 const Mesh& mesh, std::span<const Index> faces) {
+  for (const Index f : faces) {
+    if (f >= mesh.n_internal) continue;
+    const Vec3 sum =
+        interface.piece[mesh.owner[f]].n_hat + interface.piece[mesh.neighbour[f]].n_hat;
+    const Real size = norm(sum);
+    const bool between = size == 0 && alpha[mesh.owner[f]] != alpha[mesh.neighbour[f]];
+    normal[f] = between ? mesh.Sf[f] / norm(mesh.Sf[f]) : size > 1e-6 ? sum / size : Vec3{};
+  }
+}
+
 }  // namespace fsi::vof

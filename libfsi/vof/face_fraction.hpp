@@ -26,5 +26,9 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
 /// alpha_f = (1 - lambda) alpha_P + lambda alpha_N on the listed faces, whatever the planes.
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
+/// Unit normal out of the solid at the listed internal faces, between those of the planes of the
+/// two cells. Without planes: that of the face where the surface lies in it, zero elsewhere.
+void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
+                 const Mesh& mesh, std::span<const Index> faces);
 
 }  // namespace fsi::vof
