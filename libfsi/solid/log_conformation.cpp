@@ -6,6 +6,7 @@
 #include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
 #include "libfsi/solid/one_sided.hpp"
+#include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -60,14 +61,20 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
-void LogConformation::set_L(const Carrier& carrier) {
+void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
   const auto known = [&](Index c) { return own_[c] > 0; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   L_.clear();
-  for (const Index c : known_.core())
-    L_.push_back(carrier.sided || extension_.inner(c)
-                     ? carrier.L[c]
-                     : one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c));
+  for (const Index c : known_.core()) {
+    if (carrier.sided) {
+      L_.push_back(carrier.L[c]);
+    } else if (extension_.inner(c)) {
+      L_.push_back(with_flux(carrier, mesh_, c));
+    } else {
+      const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c);
+      L_.push_back(without_trace(L, alpha, mesh_, c));
+    }
+  }
 }
 
 Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
@@ -117,9 +124,9 @@ Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGrad
   return fastest;
 }
 
-Strain LogConformation::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
+Strain LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
                                   CellField<SymGradient>& grad) {
-  set_L(carrier);
+  set_L(alpha, carrier);
   return in_parts(
       dt, [&] { return rate(carrier, grad); },
       [&](Real part) { return advance(carrier, part, grad); });

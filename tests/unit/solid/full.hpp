@@ -34,6 +34,7 @@ struct Full {
 
   void set_phi(const std::function<Vec3(const Vec3&)>& stream) {
     for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(stream(mesh.Cf[f]), mesh.Sf[f]);
+    for (Index c = 0; c < mesh.n_cells; ++c) u[c] = stream(mesh.C[c]);
   }
   void set_B(const std::function<SymTensor(const Vec3&)>& B) {
     for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set(c, B(mesh.C[c]), 1);

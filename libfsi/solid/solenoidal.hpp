@@ -1,0 +1,47 @@
+#pragma once
+// The divergence that cell velocities keep, taken out of the velocity gradient that strains a
+// solid.
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/solid/carrier.hpp"
+
+namespace fsi::solid {
+
+/// Gradient at owned cell c with the flux for the normal velocity of its faces,
+///   L + (1/V) sum_f (phi_f - u_f . S_f) n (x) n,   n = S_f / |S_f|,
+/// the sum outward, u_f linear with skewness correction as in the flux itself: exact for linear
+/// fields whose flux is theirs, its trace on an orthogonal mesh div phi. L: that of the cell's
+/// neighbours too on skewed meshes.
+inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
+  const FaceWeights& weights = carrier.weights;
+  Tensor sum;
+  for (const Index f : mesh.cell_faces[c]) {
+    if (f >= mesh.n_internal) continue;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    Vec3 u_f = (1 - lambda) * carrier.u[P] + lambda * carrier.u[N];
+    if (weights.skewed)
+      u_f += (1 - lambda) * dot(carrier.L[P], weights.skew[f]) +
+             lambda * dot(carrier.L[N], weights.skew[f]);
+    const Vec3& S = mesh.Sf[f];
+    const Real rest = carrier.phi[f] - dot(u_f, S);
+    sum += ((P == c ? rest : -rest) / norm2(S)) * outer(S, S);
+  }
+  return carrier.L[c] + (1 / mesh.V[c]) * sum;
+}
+
+/// L of a cell at the surface with its trace taken out along the normal,
+///   L - tr(L) n (x) n,   n along sum_k (alpha_k - alpha_c) d_k / |d_k|^2 over vertex neighbours:
+/// what differs along the surface is continuous and smooth, div u = 0 gives the rest.
+inline Tensor without_trace(const Tensor& L, const CellField<Real>& alpha, const Mesh& mesh,
+                            Index c) {
+  Vec3 n;
+  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
+    const Index k = mesh.cell_neighbours.index[i];
+    const Vec3 d = mesh.C[k] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[i]];
+    n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
+  }
+  return norm2(n) > 0 ? L + (-trace(L) / norm2(n)) * outer(n, n) : L;
+}
+
+}  // namespace fsi::solid
