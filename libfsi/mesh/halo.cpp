@@ -82,10 +82,18 @@ Halo::Halo(Index n_owned, std::span<const int> halo_owner, std::span<const Index
 }
 
 void Halo::update(Real* values, int width) const {
+  begin(values, values, width);
+  end(values, values, width);
+}
+
+void Halo::begin(const Real* owned, Real* values, int width) const {
   if (exchange_ == nullptr) return;
-  const MPI_Datatype unit = exchange_->unit(width);
-  FSI_PETSC(PetscSFBcastBegin(exchange_->sf, unit, values, values, MPI_REPLACE));
-  FSI_PETSC(PetscSFBcastEnd(exchange_->sf, unit, values, values, MPI_REPLACE));
+  FSI_PETSC(PetscSFBcastBegin(exchange_->sf, exchange_->unit(width), owned, values, MPI_REPLACE));
+}
+
+void Halo::end(const Real* owned, Real* values, int width) const {
+  if (exchange_ == nullptr) return;
+  FSI_PETSC(PetscSFBcastEnd(exchange_->sf, exchange_->unit(width), owned, values, MPI_REPLACE));
 }
 
 void Halo::update(Real* values, int width, const Real* where) const {

@@ -27,7 +27,12 @@ class Halo {
   /// makes its buffers; later ones allocate nothing.
   void update(Real* values, int width) const;
 
-  /// The same for any field of Real, Vec3, SymTensor or Tensor.
+  /// Collective. update() in two parts, with room for work between them: `owned` holds n_owned
+  /// items and must stay as it is, of `values` only the halo part is written, by the time of end().
+  void begin(const Real* owned, Real* values, int width) const;
+  void end(const Real* owned, Real* values, int width) const;
+
+  /// update() of any field of Real, Vec3, SymTensor or Tensor.
   template <class Field>
   void update(Field& field) const {
     update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>);

@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/linear_system_multigrid.hpp"
 
 namespace fsi {
 
@@ -16,6 +17,7 @@ struct LinearSystem::Handles {
   std::string name;
   bool pinned = false;  ///< direct and singular: one diagonal entry is doubled
   bool null_space = false;
+  bool cycle = false;  ///< PETSc's own on BoomerAMG's levels
   Real relative_tolerance = 0;
   Mat matrix = nullptr;
   KSP solver = nullptr;
@@ -39,12 +41,16 @@ namespace {
 
 constexpr PetscReal no_absolute = 1e-300;  // that nobody would ask for
 
+bool given(const std::string& name) {
+  PetscBool there = PETSC_FALSE;
+  FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &there));
+  return there == PETSC_TRUE;
+}
+
 /// Puts an option into the database unless the user did.
 void prefer(const std::string& prefix, const std::string& option, const char* value) {
   const std::string name = "-" + prefix + option;
-  PetscBool given = PETSC_FALSE;
-  FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &given));
-  if (given == PETSC_FALSE) FSI_PETSC(PetscOptionsSetValue(nullptr, name.c_str(), value));
+  if (!given(name)) FSI_PETSC(PetscOptionsSetValue(nullptr, name.c_str(), value));
 }
 
 /// Global row of every local cell, halo included.
@@ -85,19 +91,13 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       prefer(prefix, "pc_hypre_boomeramg_P_max", "4");
       prefer(prefix, "pc_hypre_boomeramg_strong_threshold", "0.25");
       prefer(prefix, "pc_hypre_boomeramg_agg_nl", "1");
+      // Of BoomerAMG's own cycle, where the user asks for that; else its levels are all that stays.
       prefer(prefix, "pc_hypre_boomeramg_relax_type_all", "Chebyshev");
+      if (!given("-" + prefix + "pc_type"))
+        prefer(prefix, "pc_hypre_boomeramg_max_coarse_size", "500");
       break;
     case Method::direct:
-      if (ranks() > 1) {
-        // Every rank factors the whole, which is small: a parallel factorisation (MUMPS) adds up in
-        // an order that differs from run to run.
-        KSP inner = nullptr;
-        FSI_PETSC(PCSetType(pc, PCREDUNDANT));
-        FSI_PETSC(PCRedundantGetKSP(pc, &inner));
-        FSI_PETSC(KSPGetPC(inner, &pc));
-      }
-      FSI_PETSC(PCSetType(pc, PCCHOLESKY));
-      FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
+      factor_whole(pc);
       break;
   }
 }
@@ -138,6 +138,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   set_defaults(name + "_", method, h.solver);
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
   FSI_PETSC(KSPSetFromOptions(h.solver));
+  h.cycle = method == Method::multigrid && !given("-" + name + "_pc_type");
 }
 
 LinearSystem::~LinearSystem() = default;
@@ -160,6 +161,7 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   set_properties(h.matrix, h.null_space);
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   h.values = {}, h.face = {};
+  if (h.cycle) cycle_on_levels(h.solver, h.null_space);
 }
 
 Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, Real loosened) {

@@ -22,7 +22,7 @@ struct FaceMatrix {
 
 /// How a system is solved unless options with its prefix say otherwise.
 enum class Method {
-  multigrid,  ///< conjugate gradients with BoomerAMG; for a constant matrix of Laplacian kind
+  multigrid,  ///< conjugate gradients on BoomerAMG's levels; for a constant Laplacian-like matrix
   direct,     ///< Cholesky factors, kept; for a constant matrix of a small 2-D mesh
 };
 

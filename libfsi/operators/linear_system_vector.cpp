@@ -17,7 +17,14 @@ namespace {
 struct Operator {
   const Mesh& mesh;
   VectorMatrix matrix;
-  std::vector<Real> around;  // [n_cells * dim] a direction with its halo; one rank needs none
+  std::vector<Index> cut;    // internal faces with a cell of another rank, ascending
+  std::vector<Real> around;  // [n_cells * dim] of a direction the halo; one rank needs none
+
+  explicit Operator(const Mesh& m) : mesh(m), matrix(m) {
+    for (Index f = 0; f < m.n_internal; ++f)
+      if (m.owner[f] >= m.n_owned || m.neighbour[f] >= m.n_owned) cut.push_back(f);
+    if (ranks() > 1) around.resize(static_cast<std::size_t>(m.n_cells * m.dim));
+  }
 };
 
 }  // namespace
@@ -29,9 +36,7 @@ struct VectorSystem::Handles {
   KSP solver = nullptr;
   Vec x = nullptr, b = nullptr;
 
-  Handles(const Mesh& mesh, const std::string& n) : op{mesh, VectorMatrix(mesh), {}}, name(n) {
-    if (ranks() > 1) op.around.resize(static_cast<std::size_t>(mesh.n_cells * mesh.dim));
-  }
+  Handles(const Mesh& mesh, const std::string& n) : op(mesh), name(n) {}
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;
   ~Handles() {
@@ -45,18 +50,39 @@ struct VectorSystem::Handles {
 
 namespace {
 
-/// y_c = a_cc x_c + sum_f a_f x_N, dim components a cell; x: owned and halo, y: owned.
+/// Both cells of the faces [begin, end), all owned: y_P += a_f x_N, y_N += a_f x_P.
 template <int dim>
-void multiply(Real* y, const VectorMatrix& matrix, const Real* x, const Mesh& mesh) {
-  const Index n = mesh.n_owned;
-  for (Index i = 0; i < n * dim; ++i) y[i] = matrix.diagonal[i] * x[i];
-  for (Index f = 0; f < mesh.n_internal; ++f) {
+void add_faces(Real* y, const VectorMatrix& matrix, const Real* x, const Mesh& mesh, Index begin,
+               Index end) {
+  for (Index f = begin; f < end; ++f) {
     const Real a = matrix.off_diagonal[f];
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    if (P < n)
-      for (Index k = 0; k < dim; ++k) y[P * dim + k] += a * x[N * dim + k];
-    if (N < n)
-      for (Index k = 0; k < dim; ++k) y[N * dim + k] += a * x[P * dim + k];
+    const Index P = mesh.owner[f] * dim, N = mesh.neighbour[f] * dim;
+    for (Index k = 0; k < dim; ++k) y[P + k] += a * x[N + k];
+    for (Index k = 0; k < dim; ++k) y[N + k] += a * x[P + k];
+  }
+}
+
+/// y_c = a_cc x_c + sum_f a_f x_N, dim components a cell, of owned cells; the halo of x arrives
+/// meanwhile.
+template <int dim>
+void multiply(Real* y, Operator& op, const Real* x) {
+  const Mesh& mesh = op.mesh;
+  const VectorMatrix& matrix = op.matrix;
+  const Index n = mesh.n_owned;
+  Real* const around = op.around.data();
+  mesh.halo.begin(x, around, dim);
+  for (Index i = 0; i < n * dim; ++i) y[i] = matrix.diagonal[i] * x[i];
+  Index begin = 0;
+  for (const Index f : op.cut) {
+    add_faces<dim>(y, matrix, x, mesh, begin, f);
+    begin = f + 1;
+  }
+  add_faces<dim>(y, matrix, x, mesh, begin, mesh.n_internal);
+  mesh.halo.end(x, around, dim);
+  for (const Index f : op.cut) {
+    const Real a = matrix.off_diagonal[f];
+    const auto [mine, other] = std::minmax(mesh.owner[f], mesh.neighbour[f]);
+    for (Index k = 0; k < dim; ++k) y[mine * dim + k] += a * around[other * dim + k];
   }
 }
 
@@ -68,18 +94,11 @@ PetscErrorCode apply(Mat shell, Vec x, Vec y) noexcept {
   PetscCall(MatShellGetContext(shell, &op));
   PetscCall(VecGetArrayRead(x, &from));
   PetscCall(VecGetArrayWrite(y, &to));
-  const Mesh& mesh = op->mesh;
-  const Real* values = from;
   try {
-    if (!op->around.empty()) {
-      std::copy_n(from, mesh.n_owned * mesh.dim, op->around.begin());
-      mesh.halo.update(op->around.data(), mesh.dim);
-      values = op->around.data();
-    }
+    (op->mesh.dim == 2 ? multiply<2> : multiply<3>)(to, *op, from);
   } catch (const Error&) {
     PetscFunctionReturn(PETSC_ERR_LIB);
   }
-  (mesh.dim == 2 ? multiply<2> : multiply<3>)(to, op->matrix, values, mesh);
   PetscCall(VecRestoreArrayRead(x, &from));
   PetscCall(VecRestoreArrayWrite(y, &to));
   PetscFunctionReturn(0);

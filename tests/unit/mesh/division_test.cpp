@@ -171,6 +171,22 @@ TEST(Halo, UpdateBringsTheOwnersValues) {
   }
 }
 
+TEST(Halo, UpdateInTwoPartsWritesTheHaloAlone) {
+  const TextFile file(BlockText(block_of(CellType::hex)).text());
+  const Mesh mesh = divided(file.path(), {"left", "right"});
+  for (const int width : {1, 3}) {
+    const auto n = static_cast<std::size_t>(width) * mesh.n_owned;
+    std::vector<Real> expected(static_cast<std::size_t>(width) * mesh.n_cells, -1);
+    for (std::size_t i = 0; i < n; ++i) expected[i] = rank() + 0.1 * static_cast<Real>(i);
+    const std::vector<Real> owned(expected.begin(), expected.begin() + static_cast<long>(n));
+    std::vector<Real> values(expected.size(), -1);
+    mesh.halo.begin(owned.data(), values.data(), width);
+    mesh.halo.end(owned.data(), values.data(), width);
+    mesh.halo.update(expected.data(), width);
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], i < n ? -1 : expected[i]);
+  }
+}
+
 TEST(Halo, UpdateOfAFewCellsIsThatOfAll) {
   const TextFile file(BlockText(block_of(CellType::hex)).text());
   const Mesh mesh = divided(file.path(), {"left", "right"});

@@ -1,0 +1,20 @@
+#pragma once
+// The multigrid cycle of a LinearSystem: for linear_system.cpp alone.
+
+#include <petscksp.h>
+
+namespace fsi {
+
+/// Collective. Puts a symmetric V(1,1) cycle of PETSc's in the place of BoomerAMG, the solver's
+/// preconditioner, on the levels that BoomerAMG makes of the solver's matrix: a sweep of
+/// Gauss-Seidel forward on the way down, one backward on the way up, in every rank's own part, and
+/// a factorisation on the coarsest. singular: the constant is the null space of the matrix.
+/// Leaves BoomerAMG alone where it makes one level only.
+void cycle_on_levels(KSP solver, bool singular);
+
+/// Makes the preconditioner a factorisation; where ranks are many every one factors the whole,
+/// which is small: a parallel factorisation (MUMPS) adds up in an order that differs from run to
+/// run.
+void factor_whole(PC pc);
+
+}  // namespace fsi
