@@ -4,10 +4,10 @@ namespace fsi::solid {
 namespace {
 
 /// Whether all face neighbours of c are known.
-bool is_inner(Index c, const CellField<Real>& own, const Mesh& mesh) {
+bool is_inner(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   for (const Index f : mesh.cell_faces[c])
     if (f < mesh.n_internal &&
-        !(own[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known))
+        !(alpha[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known))
       return false;
   return true;
 }
@@ -17,13 +17,13 @@ bool is_inner(Index c, const CellField<Real>& own, const Mesh& mesh) {
 Extension::Extension(const Mesh& mesh)
     : mesh_(mesh), zone_(mesh), ring_of_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {}
 
-void Extension::mark(const CellField<Real>& own, const Band& known) {
+void Extension::mark(const CellField<Real>& alpha, const Band& known) {
   for (const Index c : near_) zone_[c] = 0;
   near_ = set_;
   near_.insert(near_.end(), known.cells().begin(), known.cells().end());
   for (const Index c : near_) zone_[c] = 1;
   for (const Index c : known.core())
-    if (is_inner(c, own, mesh_)) zone_[c] = 2;
+    if (is_inner(c, alpha, mesh_)) zone_[c] = 2;
   mesh_.halo.update(zone_);
 }
 
@@ -71,6 +71,7 @@ void Extension::apply(CellField<SymTensor>& T, const Band& known) {
   for (const Index c : set_) ring_of_[c] = 1;
   mesh_.halo.update(ring_of_);
   mesh_.halo.update(T, ring_of_);
+  constexpr int rings = 3;
   for (int ring = 1; ring <= rings; ++ring) {
     list_ring(1 + ring, known);
     fill(T, 1 + ring);

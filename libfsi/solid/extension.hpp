@@ -10,23 +10,21 @@
 
 namespace fsi::solid {
 
-/// Cells from this fraction of solid on count as the solid's.
+/// Cells from this fraction of solid on know their own deformation.
 inline constexpr Real alpha_known = 0.5;
 
 /// Continues a tensor known inside the solid into the cells around it:
 ///
-///   known        as the band given says: T as it is
+///   known        alpha >= 1/2: T as it is
 ///   not known    T = sum w T_k / sum w, w = 1 / |d|^2, over the vertex neighbours that are set
 ///                already, ring by ring to three rings beyond the known cells; zero beyond
 class Extension {
  public:
   explicit Extension(const Mesh& mesh);
 
-  static constexpr int rings = 3;
-
-  /// Collective. Finds the inner ones among the cells of `known`, the band of own >= alpha_known:
+  /// Collective. Finds the inner ones among the cells of `known`, the band of alpha >= alpha_known:
   /// those whose face neighbours are all known; and `near`.
-  void mark(const CellField<Real>& own, const Band& known);
+  void mark(const CellField<Real>& alpha, const Band& known);
   /// Collective. T: owned and halo, before and after.
   void apply(CellField<SymTensor>& T, const Band& known);
 

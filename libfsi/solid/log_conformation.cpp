@@ -19,7 +19,7 @@ Real largest(const SymTensor& t) {
 }  // namespace
 
 LogConformation::LogConformation(const Mesh& mesh)
-    : psi(mesh), mesh_(mesh), own_(mesh), half_(mesh), known_(mesh), extension_(mesh) {}
+    : psi(mesh), mesh_(mesh), known_(mesh), extension_(mesh) {}
 
 void LogConformation::set_undeformed(const CellField<Real>& alpha) {
   psi.fill({});
@@ -31,29 +31,6 @@ void LogConformation::resume(const CellField<Real>& alpha) {
   extension_.apply(psi, known_);
 }
 
-// What cells cut by the surface carry of psi is off by more than the others
-// (doc/verification/disc.md): they take it from the uncut ones within reach.
-void LogConformation::mark(const CellField<Real>& alpha) {
-  constexpr Real uncut = 0.99;
-  half_.rebuild(alpha, alpha_known);
-  for (const Index c : own_listed_) own_[c] = 0;
-  own_listed_ = half_.core();
-  for (const Index c : own_listed_) own_[c] = alpha[c] >= uncut ? 1 : 0;
-  mesh_.halo.update(own_);
-  // own_ = 1 + rings from the nearest uncut cell, 0: farther
-  for (int ring = 1; ring <= Extension::rings; ++ring) {
-    for (const Index c : own_listed_)
-      if (own_[c] == 0 &&
-          std::ranges::any_of(mesh_.cell_neighbours[c], [&](Index n) { return own_[n] == ring; }))
-        own_[c] = 1 + ring;
-    mesh_.halo.update(own_);
-  }
-  for (const Index c : own_listed_) own_[c] = own_[c] <= 1 ? 1 : 0;
-  mesh_.halo.update(own_);
-  known_.rebuild(own_, alpha_known);
-  extension_.mark(own_, known_);
-}
-
 SymTensor LogConformation::isochoric(SymTensor p) const {
   if (mesh_.dim == 3) return dev(p);
   const Real m = (p.xx + p.yy) / 2;
@@ -62,7 +39,7 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 }
 
 void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
-  const auto known = [&](Index c) { return own_[c] > 0; };
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   L_.clear();
   for (const Index c : known_.core()) {

@@ -12,12 +12,11 @@
 namespace fsi::solid {
 
 /// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
-/// on the cells that the surface does not cut, and on those filled by half or more that have none
-/// of these within the extension's reach, where the solid is thinner than the mesh; with face
-/// values by Koren's limiter, Heun's method over dt, or parts of it (strain.hpp), with phi and L
-/// frozen (one_sided.hpp), then det B = 1 and the extension into the cells around. B = exp(psi) is
-/// positive definite whatever happens. Second order in space; the solver makes it so in time by
-/// taking it half a step ahead of the flow.
+/// on the cells that the solid fills by half or more, with face values by Koren's limiter, Heun's
+/// method over dt, or parts of it (strain.hpp), with phi and L frozen (one_sided.hpp), then det B =
+/// 1 and the extension into the cells around. B = exp(psi) is positive definite whatever happens.
+/// Second order in space; the solver makes it so in time by taking it half a step ahead of the
+/// flow.
 class LogConformation {
  public:
   explicit LogConformation(const Mesh& mesh);
@@ -37,9 +36,10 @@ class LogConformation {
   void resume(const CellField<Real>& alpha);
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
-  void mark(const CellField<Real>& alpha);
-  /// 1 in the cells that carry their own psi, 0 elsewhere; owned and halo.
-  const CellField<Real>& own() const { return own_; }
+  void mark(const CellField<Real>& alpha) {
+    known_.rebuild(alpha, alpha_known);
+    extension_.mark(alpha, known_);
+  }
   /// Owned cells on which `transport` reads L.
   std::span<const Index> strained() const { return known_.cells(); }
 
@@ -72,9 +72,7 @@ class LogConformation {
   SymTensor isochoric(SymTensor p) const;
 
   const Mesh& mesh_;
-  CellField<Real> own_;  // 1: carries its own psi
-  Band half_, known_;    // alpha >= alpha_known; own_
-  std::vector<Index> own_listed_;
+  Band known_;
   Extension extension_;
   std::vector<SymTensor> old_, rate_;  // beside known_.core()
   std::vector<Tensor> L_;              // beside known_.core()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/sided_gradient.hpp"
 
 namespace fsi::solid {
@@ -43,10 +44,10 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     const Real inertia = solid.rho * d * d / (8 * solid.dt);
     Real w = weights.lambda[f];
-    if (solid.inside != nullptr) {
+    if (solid.sided) {
       // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
       // at the surface a part alpha_f of the way is the solid's.
-      const bool P_in = (*solid.inside)[P] > 0, N_in = (*solid.inside)[N] > 0;
+      const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
       w = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
       e *= 2;
       kappa[f] += std::max(e / explicit_part - kappa[f] - inertia, Real{0});

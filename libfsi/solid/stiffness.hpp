@@ -16,12 +16,13 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
 
 /// What a face operator on the solid reads.
 struct Stiffening {
-  const CellField<Real>& lambda;  ///< largest eigenvalue of B, on the band's cells and halo
-  const FaceField<Real>& alpha;   ///< part of solid at the band's faces
-  const CellField<Vec3>& u;       ///< owned and halo
-  const CellField<Tensor>& L;     ///< velocity gradient, on the band and halo
+  const CellField<Real>& lambda;    ///< largest eigenvalue of B, on the band's cells and halo
+  const FaceField<Real>& alpha;     ///< part of solid at the band's faces
+  const CellField<Vec3>& u;         ///< owned and halo
+  const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
+  const CellField<Real>& fraction;  ///< alpha; owned and halo
   Real G, rho, mu_s, dt;
-  const CellField<Real>* inside{};  ///< where L is that of the cell's own side (SidedGradient)
+  bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
 };
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:

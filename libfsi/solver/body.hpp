@@ -58,12 +58,6 @@ struct Body {
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
   }
-  /// 1 in the cells that carry the solid's strain, 0 elsewhere, where the velocity gradient is that
-  /// of one side of its surface; none where it is not.
-  const CellField<Real>* inside() const {
-    const auto* k = std::get_if<solid::LogConformation>(&kinematics);
-    return k != nullptr && sided ? &k->own() : nullptr;
-  }
   /// B of any cell, the unit tensor where there is none.
   SymTensor B_of(Index c) const {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);

@@ -168,7 +168,7 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
-        if (sided) body_->sided->apply(L_, state_.u, u_b_, *body_->inside(), k.strained());
+        if (sided) body_->sided->apply(L_, state_.u, u_b_, body_->alpha, k.strained());
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);
@@ -194,11 +194,12 @@ void Solver::stiffen(Real dt) {
                                 body_->alpha_f,
                                 state_.u,
                                 L_,
+                                body_->alpha,
                                 physics_.G,
                                 physics_.rho,
                                 map ? 0 : physics_.mu_s,
                                 dt,
-                                body_->inside()};
+                                body_->sided.has_value()};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
 }
 

@@ -253,7 +253,7 @@ struct Stiff {
   bool inside(Index c) const { return norm(s.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
   void apply() {
     s.band.rebuild(s.alpha, 0.5);
-    const solid::Stiffening stiff{lambda, share, u, L, G, rho, mu_s, dt};
+    const solid::Stiffening stiff{lambda, share, u, L, s.alpha, G, rho, mu_s, dt};
     stiffness.apply(kappa, s.force, stiff, s.weights, s.band);
   }
   static constexpr Real rho = 2, dt = 0.1, h = 0.125;

@@ -39,15 +39,15 @@ TEST(SidedGradient, IsExactForAQuadraticVelocityWithAKink) {
   for (const Index depth : {0, 6}) {
     test::BoxFile box{.n = {8, 6, depth}, .simplex = true};
     box.moved = [](const Vec3& x) {
-      const Real moved = std::abs(x.x - 0.5) < 1e-9 ? 0 : 0.03;
-      return x + (moved * std::sin(9 * x.y + 5 * x.z) * x.x * (1 - x.x)) * Vec3{1, 0, 0};
+      const Real inside = std::abs(x.x - 0.5) < 1e-9 ? 0 : 0.03;
+      return x + (inside * std::sin(9 * x.y + 5 * x.z) * x.x * (1 - x.x)) * Vec3{1, 0, 0};
     };
     const Mesh mesh = test::read_box(box);
     EXPECT_TRUE(solid::has_simplices(mesh));
     CellField<Vec3> u(mesh);
-    CellField<Real> inside(mesh);
+    CellField<Real> alpha(mesh);
     for (Index c = 0; c < mesh.n_cells; ++c)
-      u[c] = velocity(mesh.C[c]), inside[c] = mesh.C[c].x < 0.5 ? 1 : 0;
+      u[c] = velocity(mesh.C[c]), alpha[c] = mesh.C[c].x < 0.5 ? 1 : 0;
     BoundaryField<Vec3> u_b(mesh);
     for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
       u_b[f - mesh.n_internal] = velocity(mesh.C[mesh.owner[f]] + mesh.d[f]);
@@ -56,7 +56,7 @@ TEST(SidedGradient, IsExactForAQuadraticVelocityWithAKink) {
     for (Index c = 0; c < mesh.n_owned; ++c)
       if (std::abs(mesh.C[c].x - 0.5) < 0.35 && away_from_edges(mesh.C[c], mesh.dim))
         cells.push_back(c);
-    solid::SidedGradient(mesh).apply(L, u, u_b, inside, cells);
+    solid::SidedGradient(mesh).apply(L, u, u_b, alpha, cells);
     Real worst = 0;
     for (const Index c : cells) {
       Tensor expected = exact(mesh.C[c]);

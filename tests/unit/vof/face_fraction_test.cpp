@@ -77,6 +77,24 @@ TEST(FaceFraction, ObliquePlane) {
   }
 }
 
+// Between planes their own normal; where the surface lies in a face, that of the face; elsewhere
+// none.
+TEST(FaceNormal, OfThePlanesOrOfTheFace) {
+  HalfSpace s({.n = {8, 8, 0}}, {1, 0.6, 0}, {0.5, 0.5, 0});
+  std::vector<Index> faces;
+  for (Index f = 0; f < s.mesh.n_faces; ++f) faces.push_back(f);
+  FaceField<Vec3> normal(s.mesh);
+  face_normal(normal, s.alpha, s.interface, s.mesh, faces);
+  for (Index f = 0; f < s.mesh.n_internal; ++f) EXPECT_LE(norm(normal[f] - s.n), 1e-14);
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.interface.piece[c] = {};
+  face_normal(normal, s.alpha, s.interface, s.mesh, faces);
+  for (Index f = 0; f < s.mesh.n_internal; ++f) {
+    const bool between = s.alpha[s.mesh.owner[f]] != s.alpha[s.mesh.neighbour[f]];
+    const Vec3 n = between ? s.mesh.Sf[f] / norm(s.mesh.Sf[f]) : Vec3{};
+    EXPECT_LE(norm(normal[f] - n), 1e-14);
+  }
+}
+
 // Without a plane the interface lies on the face.
 TEST(FaceFraction, WithoutPlanes) {
   HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, 0.5, 0});
