@@ -73,7 +73,7 @@ class Projection {
 /// div_c = sum_f phi_f / V of owned cells.
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);
 
-/// p_c -= chi nu_c div u*, nu_c the mean of theta mu + kappa over the faces of the cell: what the
+/// p_c -= chi nu_c div u*, nu_c the least theta mu + kappa of the cell's faces: what the
 /// implicit viscous term makes of the correction grad q. div: of the predicted flux, owned. p:
 /// owned and halo.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,

@@ -107,11 +107,4 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   mesh_.halo.update(force);
 }
 
-void add_body_force(CellField<Vec3>& force, const CellField<Real>& alpha, const Vec3& f,
-                    const Mesh& mesh, std::span<const Index> cells) {
-  if (f == Vec3{}) return;
-  for (const Index c : cells) force[c] += alpha[c] * f;
-  mesh.halo.update(force);
-}
-
 }  // namespace fsi::solid

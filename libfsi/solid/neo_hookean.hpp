@@ -54,8 +54,4 @@ class NeoHookean {
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
 
-/// Collective. force_c += alpha_c f on the listed cells and halo; nothing to do for f = 0.
-void add_body_force(CellField<Vec3>& force, const CellField<Real>& alpha, const Vec3& f,
-                    const Mesh& mesh, std::span<const Index> cells);
-
 }  // namespace fsi::solid

@@ -65,14 +65,13 @@ struct Body {
 
   const Mesh& mesh;
   const FaceWeights& weights;
-  CellField<Real> alpha;    ///< volume fraction of the solid
-  CellField<SymTensor> B;   ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;  ///< part of solid at the band's faces
-  FaceField<Vec3>
-      normal_f;            ///< of the interface there where B is extended, zero where there is none
-  CellField<Real> lambda;  ///< largest eigenvalue of B; owned and halo
-  Real t = 0;              ///< time of alpha and B
-  solid::Strain strain;    ///< in the last step
+  CellField<Real> alpha;     ///< volume fraction of the solid
+  CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;   ///< part of solid at the band's faces
+  FaceField<Vec3> normal_f;  ///< of the interface there, zero away from it; where B is extended
+  CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
+  Real t = 0;                ///< time of alpha and B
+  solid::Strain strain;      ///< in the last step
   Real eigenvalue_min = 1;   ///< of B on this rank
   vof::Interface interface;  ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;
