@@ -11,9 +11,6 @@
 namespace fsi::solid {
 namespace {
 
-/// Cells from this fraction of solid on have no kink of u in them.
-constexpr Real alpha_uncut = 0.99;
-
 /// The fit about c over the neighbours n with same(n), with their L where has_L(n).
 template <class Same, class HasL>
 std::optional<Tensor> fit(const CellField<Tensor>& L, const CellField<Vec3>& u,
@@ -45,13 +42,12 @@ void SidedGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
                           const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
                           std::span<const Index> cells) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
-  const auto uncut = [&](Index c) { return alpha[c] >= alpha_uncut; };
   const auto none = [](Index) { return false; };
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();
   for (const Index c : cells) {
-    if (!uncut(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], uncut)) continue;
-    const auto whole = fit(L, u, u_b, uncut, none, mesh_, c);
+    if (!known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known)) continue;
+    const auto whole = fit(L, u, u_b, known, none, mesh_, c);
     if (!whole) continue;
     L[c] = *whole;
     deep_[c] = 1;
@@ -62,8 +58,8 @@ void SidedGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
   const auto deep = [&](Index c) { return deep_[c] > 0; };
   for (const Index c : cells) {
     if (deep(c)) continue;
-    const bool in = known(c), whole = uncut(c);
-    const auto same = [&](Index n) { return whole ? uncut(n) : known(n) == in; };
+    const bool in = known(c);
+    const auto same = [&](Index n) { return known(n) == in; };
     const auto sided = fit(L, u, u_b, same, deep, mesh_, c);
     L[c] = sided ? *sided : one_sided_gradient(L, u, same, none, mesh_, c);
   }

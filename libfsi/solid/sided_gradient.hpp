@@ -20,9 +20,8 @@ bool has_simplices(const Mesh& mesh);
 /// non-orthogonal part of the viscous flux passes on to the velocity.
 ///
 /// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
-/// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells that the surface does not
-/// cut leave out those that it does, whose value is a mean over the kink; those beside cut ones
-/// take the gradients of those farther in as well. Where that does not tell it, L is the
+/// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells of the solid beside its
+/// surface take the gradients of those farther in as well. Where that does not tell it, L is the
 /// linear fit of the own side (one_sided.hpp).
 class SidedGradient {
  public:
@@ -35,7 +34,7 @@ class SidedGradient {
 
  private:
   const Mesh& mesh_;
-  CellField<Real> deep_;  // 1: uncut, with all vertex neighbours
+  CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
   std::vector<Index> last_deep_;
 };
 
