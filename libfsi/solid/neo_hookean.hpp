@@ -29,7 +29,8 @@ class NeoHookean {
   /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
   /// At boundaries alpha B (with alpha_f: B) continues linearly.
   /// balance_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f that of B
-  /// times alpha_f, and that of the level part. It vanishes for a linear stress. Zero outside the
+  /// times alpha_f, and that of the level part. It vanishes for a linear stress and where it is
+  /// below 1e-9 G. Zero outside the
   /// band of this and of the last call. force: owned and halo.
   /// grad: scratch that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
