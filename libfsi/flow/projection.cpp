@@ -25,7 +25,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
   const auto damped = [&](Index f, Real dt) {
-    const Real implicit = terms.theta * terms.mu[f] + terms.kappa[f];
+    const Real implicit = terms.theta * terms.mu[f] + (1 + 2 * terms.strained) * terms.kappa[f];
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.

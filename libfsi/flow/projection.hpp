@@ -22,16 +22,19 @@ struct FluxTerms {
   const FaceField<Real>& mu;
   const FaceField<Real>& kappa;  ///< implicit stand-in for elasticity; 0 outside the solid
   Real theta = 0.5, rho = 1, dt = 0;
+  Real strained = 0;  ///< dt G lambda_B / kappa where the flux strains the solid; 0: it does not
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
 ///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
-///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f) / |d|^2),
-/// t_f = dt, but where elastic stress acts not more than 0.02 |d| / |u_f|: the jump at the surface
-/// of a solid would else leak through it with a flux in proportion to dt. The brace compares the
-/// compact with the averaged gradient of p and of the elastic normal stress; it vanishes for linear
-/// fields. Boundary: prescribed velocity, or the same with p_b at openings. On return every face of
-/// phi is set. u: owned and halo.
+///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G lambda_B) / |d|^2),
+/// the last where the flux strains the solid: an elastic normal stress that alternates from cell to
+/// cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a step, no more
+/// than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| / |u_f|: the jump
+/// at the surface of a solid would else leak through it with a flux in proportion to dt. The brace
+/// compares the compact with the averaged gradient of p and of the elastic normal stress; it
+/// vanishes for linear fields. Boundary: prescribed velocity, or the same with p_b at openings. On
+/// return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);

@@ -41,15 +41,12 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
-  const auto deep = [&](Index c) { return std::ranges::all_of(mesh_.cell_neighbours[c], inner); };
   L_.clear();
   for (const Index c : known_.core()) {
     if (carrier.sided) {
       L_.push_back(carrier.L[c]);
     } else if (extension_.inner(c)) {
-      // Deep inside there is little divergence, and a strain by the flux answers a stiff solid's
-      // stress at once, which makes it rough.
-      L_.push_back(deep(c) ? carrier.L[c] : with_flux(carrier, mesh_, c));
+      L_.push_back(with_flux(carrier, mesh_, c));
     } else {
       const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c);
       L_.push_back(without_trace(L, alpha, mesh_, c));

@@ -61,9 +61,8 @@ class LogConformation {
   CellField<SymTensor> psi;
 
  private:
-  /// Sets L_: the velocity gradient, in the solid's outermost cells that of its own side
-  /// (one_sided.hpp), there and one cell farther in without the divergence of the cell velocities
-  /// (solenoidal.hpp).
+  /// Sets L_: the velocity gradient without the divergence of the cell velocities (solenoidal.hpp),
+  /// in the solid's outermost cells that of its own side (one_sided.hpp).
   void set_L(const CellField<Real>& alpha, const Carrier& carrier);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
   Real rate(const Carrier& carrier, CellField<SymGradient>& grad);

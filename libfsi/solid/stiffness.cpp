@@ -26,7 +26,6 @@ Stiffness::Stiffness(const Mesh& mesh) : mesh_(mesh), simplex_(has_simplices(mes
 
 void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
-  constexpr Real share = 0.3;
   constexpr Real explicit_part = 1.5;  // of kappa + rho |d|^2 / (8 dt): stable so
   const CellField<Real>& lambda = solid.lambda;
   for (const Index f : last_faces_) kappa[f] = 0;
@@ -43,12 +42,12 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     const Real inertia = solid.rho * d * d / (8 * solid.dt);
-    Real w = weights.lambda[f];
+    // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
+    // at the surface a part alpha_f of the way is the solid's.
+    const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
+    const Real kinked = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
+    const Real w = solid.kink ? kinked : weights.lambda[f];
     if (solid.sided) {
-      // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
-      // at the surface a part alpha_f of the way is the solid's.
-      const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
-      w = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
       e *= 2;
       kappa[f] += std::max(e / explicit_part - kappa[f] - inertia, Real{0});
     } else if (simplex_) {

@@ -22,6 +22,7 @@ struct Stiffening {
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
   const CellField<Real>& fraction;  ///< alpha; owned and halo
   Real G, rho, mu_s, dt;
+  bool kink = false;   ///< the mean of L allows for a kink of u at the surface
   bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
 };
 
@@ -37,18 +38,22 @@ struct Stiffening {
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
-/// far as the solid's own viscosity, whose compact term does the same, does not. It is of third
-/// order, but at the surface, where L jumps, a stress of first order. Explicit, and so at most
-/// 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has more such modes,
-/// need 2 |d| (rho G alpha lambda_B)^(1/2) whatever mu_s is and all of it. With L from the cell's
-/// own side (sided) the mean is (L_P + L_N) / 2, at the surface alpha_f L_s + (1 - alpha_f) L_f,
-/// exact for a linear velocity with a kink, and kappa grows by what makes all of e stable, i = e
-/// / 1.5 - kappa - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of the
-/// first u^n. Either costs an error of first order in dt.
+/// far as the solid's own viscosity, whose compact term does the same, does not. The mean is
+/// (L_P + L_N) / 2, exact for a quadratic velocity, at the surface, where u has a kink,
+/// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
+/// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,
+/// and so at most 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has
+/// more such modes, need 2 |d| (rho G alpha lambda_B)^(1/2) whatever mu_s is and all of it. With L
+/// from the cell's own side (sided) and kappa grows by what makes all of e stable, i = e / 1.5 -
+/// kappa - rho |d|^2 / (8 dt) where that is positive. Otherwise u* stands in place of the first
+/// u^n. Either costs an error of first order in dt.
 class Stiffness {
  public:
   /// Collective.
   explicit Stiffness(const Mesh& mesh);
+
+  /// kappa / (dt G alpha lambda_B).
+  static constexpr Real share = 0.3;
 
   /// Collective. kappa_f: the implicit coefficient, on triangles and tetrahedra with i or e added;
   /// lambda_B linear between the cells, times the face's alpha; zero outside the band of this and

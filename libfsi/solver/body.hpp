@@ -46,6 +46,10 @@ struct Body {
   void weigh();
   /// Whether elasticity may be treated implicitly: the paper's scheme does not.
   bool semi_implicit() const { return extended(); }
+  /// Whether the face flux takes part in the solid's strain.
+  bool strained_by_flux() const {
+    return !sided && std::holds_alternative<solid::LogConformation>(kinematics);
+  }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);

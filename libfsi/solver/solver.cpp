@@ -199,6 +199,7 @@ void Solver::stiffen(Real dt) {
                                 physics_.rho,
                                 map ? 0 : physics_.mu_s,
                                 dt,
+                                !map,
                                 body_->sided.has_value()};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
 }
@@ -226,8 +227,10 @@ void Solver::predict_momentum(Real dt) {
 void Solver::predict_flux(Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const flow::FluxTerms terms{
-      state_.p, grad_p_, p_b_, L_, balance_, mu_, kappa_, momentum_.theta_at(dt), physics_.rho, dt};
+  const Real strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0;
+  const flow::FluxTerms terms{state_.p,     grad_p_, p_b_,    L_,
+                              balance_,     mu_,     kappa_,  momentum_.theta_at(dt),
+                              physics_.rho, dt,      strained};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 

@@ -253,11 +253,12 @@ struct Stiff {
   bool inside(Index c) const { return norm(s.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
   void apply() {
     s.band.rebuild(s.alpha, 0.5);
-    const solid::Stiffening stiff{lambda, share, u, L, s.alpha, G, rho, mu_s, dt};
+    const solid::Stiffening stiff{lambda, share, u, L, s.alpha, G, rho, mu_s, dt, kink};
     stiffness.apply(kappa, s.force, stiff, s.weights, s.band);
   }
   static constexpr Real rho = 2, dt = 0.1, h = 0.125;
   Real mu_s = 0;
+  bool kink = false;
   Solid s;
   CellField<Real> lambda;
   FaceField<Real> share;
@@ -323,6 +324,39 @@ TEST(Stiffness, CountsTheSolidsViscosity) {
       const Vec3& x = stiff.s.mesh.C[c];
       if (norm(x - Vec3{0.5, 0.5, 0}) > 0.1) continue;
       EXPECT_NEAR(stiff.s.force[c].y, -4 * e / (Stiff::h * Stiff::h) * sign(x), 1e-10);
+    }
+  }
+}
+
+// Across the surface between two centres u has a kink: no force where each side is linear and L the
+// mean of the gradients to both sides; e g (b - a) / 4 d with the plain mean.
+TEST(Stiffness, KnowsTheKinkAtTheSurface) {
+  const Real at = 0.55, a = 1, b = 3;  // surface, gradients of u_y in solid and fluid
+  const auto u_y = [&](Real x) { return x < at ? a * (x - at) : b * (x - at); };
+  const Real h = Stiff::h, part = (at - 0.4375) / h;
+  for (const bool kink : {true, false}) {
+    Stiff stiff([&](const Vec3& x) { return Vec3{0, u_y(x.x), 0}; });
+    const Mesh& mesh = stiff.s.mesh;
+    for (Index c = 0; c < mesh.n_cells; ++c) {
+      const Real x = mesh.C[c].x;
+      stiff.s.alpha[c] = x < at ? 1 : 0;
+      stiff.L[c].yx = (u_y(x + h) - u_y(x - h)) / (2 * h);
+    }
+    for (Index f = 0; f < mesh.n_internal; ++f) {
+      const Real P = stiff.s.alpha[mesh.owner[f]], N = stiff.s.alpha[mesh.neighbour[f]];
+      stiff.share[f] = P != N ? part : P;
+    }
+    stiff.kink = kink;
+    stiff.apply();
+    const Real l = 2 * part,
+               stand_in = 0.3 * Stiff::dt * G * l + Stiff::rho * h * h / (8 * Stiff::dt);
+    const Real e = std::min(h * std::sqrt(Stiff::rho * G * l), 1.5 * stand_in);
+    // Delta - d (L_s + L_f) / 2 = (part - 1/2) (a - b) h / 2
+    const Real left = kink ? 0 : e / (h * h) * (part - 0.5) / 2 * (a - b) * h;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (mesh.C[c].x > at && mesh.C[c].x < at + h) {
+        EXPECT_NEAR(stiff.s.force[c].y, -left, 1e-12);
+      }
     }
   }
 }

@@ -1,0 +1,44 @@
+// The predicted face flux.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "libfsi/flow/projection.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+// A stress s that alternates from cell to cell along x: c_f = 2 s, no pressure. The flux strains
+// what it passes through, psi = -2 du/dx dt, and G psi is what that takes off s: no more than s
+// itself, however long the step; without the bound, by kappa alone, more.
+TEST(Flux, StrainsNoMoreOffThanThereIs) {
+  const Mesh mesh = test::read_box({.n = {8, 8, 0}});
+  const FaceWeights weights(mesh);
+  const Real G = 10, s = 1, d = 0.125;
+  CellField<Vec3> u(mesh), grad_p(mesh);
+  CellField<Real> p(mesh);
+  CellField<Tensor> L(mesh);
+  BoundaryField<Vec3> u_b(mesh);
+  BoundaryField<Real> p_b(mesh);
+  FaceField<Real> phi(mesh), balance(mesh, 2 * s), mu(mesh), kappa(mesh);
+  const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  for (const Real dt : {1e-4, 1e-2, 1.0}) {
+    kappa.fill(0.3 * dt * G);
+    const auto taken_off = [&](Real strained) {
+      flow::predict_flux(phi, u, u_b, open,
+                         {p, grad_p, p_b, L, balance, mu, kappa, 0.5, 1, dt, strained}, weights,
+                         mesh);
+      const Real in = phi[0] / norm(mesh.Sf[0]);  // as much enters on the other side
+      return G * 2 * (2 * in / d) * dt / s;
+    };
+    const Real x = 8 * dt * dt * G / (d * d);
+    EXPECT_NEAR(taken_off(1 / 0.3), x / (1 + 0.15 * x + x), 1e-12 * x);
+    EXPECT_NEAR(taken_off(0), x / (1 + 0.15 * x), 1e-12 * x);
+    EXPECT_LE(taken_off(1 / 0.3), 1);
+  }
+}
+
+}  // namespace
+}  // namespace fsi
