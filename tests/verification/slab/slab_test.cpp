@@ -208,6 +208,22 @@ TEST(Slab, InviscidSolidInMidCell) {
   EXPECT_LT(fine.u, coarse.u);
 }
 
+TEST(Slab, TwoViscosities) {
+  const auto [coarse, fine] = converge({Layers{.G = 5, .mu_f = 1, .mu_s = 0.2}}, 32, 64);
+  EXPECT_LE(fine.u, 1e-3 * std::abs(Exact(elastic).amplitude(0.5)));
+  EXPECT_GE(order(coarse.u, fine.u), 1.8);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
+  const auto [coarse_stiff, fine_stiff] = converge({Layers{.G = 5, .mu_f = 1, .mu_s = 5}}, 32, 64);
+  EXPECT_GE(order(coarse_stiff.u, fine_stiff.u), 1.7);
+  EXPECT_GE(order(coarse_stiff.B_xy, fine_stiff.B_xy), 1.6);
+}
+
+TEST(Slab, TwoViscositiesInMidCell) {
+  const auto [coarse, fine] = converge({Layers{.G = 5, .mu_f = 1, .mu_s = 0.2}}, 33, 65);
+  EXPECT_GE(order(coarse.u, fine.u), 1.6);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.5);
+}
+
 TEST(Slab, ThePapersKinematics) {
   const auto [coarse, fine] = converge({elastic, KinematicsKind::left_cauchy_green}, 32, 64);
   EXPECT_LE(fine.u, 0.03 * std::abs(Exact(elastic).amplitude(0.5)));
