@@ -45,6 +45,10 @@ SurfaceTraction::SurfaceTraction(const Mesh& mesh, Real G, Viscosities mu)
       own_(mesh),
       has_own_(mesh) {}
 
+bool SurfaceTraction::uncut(Real alpha) const {
+  return mu_.solid > mu_.fluid ? alpha > whole : alpha < 1 - whole;
+}
+
 void SurfaceTraction::clear(const Band& band) {
   const auto reset = [&](Index c) {
     level_[c] = kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0;
@@ -62,7 +66,7 @@ void SurfaceTraction::mark(const Surface& surface, const Band& band) {
   for (const Index f : band.faces()) {
     if (!at_surface(surface, mesh_, f)) continue;
     for (const Index c : {mesh_.owner[f], mesh_.neighbour[f]})
-      if (c < mesh_.n_owned) touch_[c] = surface.alpha[c] > whole ? 2 : 1;
+      if (c < mesh_.n_owned) touch_[c] = uncut(surface.alpha[c]) ? 2 : 1;
   }
   mesh_.halo.update(touch_);
 }
@@ -104,10 +108,12 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
 
 void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) {
   const auto known = [&](Index c) { return surface.alpha[c] >= alpha_known; };
-  const auto inner = [&](Index c) { return surface.alpha[c] > whole && touch_[c] == 0; };
+  const bool in = mu_.solid > mu_.fluid;
+  const auto same = [&](Index c) { return known(c) == in; };
+  const auto inner = [&](Index c) { return uncut(surface.alpha[c]) && touch_[c] == 0; };
   const auto none = [](Index) { return false; };
   for (const Index c : band.cells()) {
-    if (touch_[c] > 1) L_in_[c] = one_sided_gradient(surface.L, surface.u, known, inner, mesh_, c);
+    if (touch_[c] > 1) L_in_[c] = one_sided_gradient(surface.L, surface.u, same, inner, mesh_, c);
     if (touch_[c] == 0 || !known(c) || mu_least_ == mu_.solid) continue;
     own_[c] = twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, mesh_, c));
     has_own_[c] = 1;
@@ -169,8 +175,9 @@ void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, con
     const Tensor mean = (1 - lambda) * surface.L[P] + lambda * surface.L[N];
     const Vec3 compact = weights.g[f] * du + dot(mean, weights.k[f]);
     const Real mine = surface.mu[f] - mu_.fluid;
+    const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
     const auto part = [&](Index c) {
-      return traction + level_part + (alpha[c] * s) * S -
+      return traction + transposed + level_part + (alpha[c] * s) * S -
              mine * (compact + dot(transpose(surface.L[c]), S));
     };
     force[P] += (1 / mesh_.V[P]) * part(P);
@@ -184,23 +191,26 @@ void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, con
 
 void SurfaceTraction::push_transposed(CellField<Vec3>& force, const Surface& surface,
                                       const FaceWeights& weights, const Band& band) const {
-  const Real excess = mu_.solid - mu_.fluid;
+  const Real excess = std::abs(mu_.solid - mu_.fluid);
+  const bool in = mu_.solid > mu_.fluid;
   const auto L_of = [&](Index c) -> const Tensor& {
     return touch_[c] > 1 ? L_in_[c] : surface.L[c];
   };
   for (const Index c : band.cells()) {
-    if (excess > 0 ? surface.alpha[c] <= whole : touch_[c] < 2) continue;
+    const bool there = uncut(surface.alpha[c]);
+    if (!there && (in || surface.alpha[c] <= whole)) continue;
+    // what the momentum equation has in the solid, of |mu_s - mu_f|
+    const Tensor has = (in ? -1 : 1) * surface.L[c];
+    const Tensor none{};
     Vec3 sum;
     for (const Index f : mesh_.cell_faces[c]) {
-      if (f >= mesh_.n_internal) {
-        sum += dot(transpose(L_of(c) + (-1) * surface.L[c]), mesh_.Sf[f]);
-        continue;
-      }
-      const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-      const Real lambda = weights.lambda[f], out = P == c ? 1 : -1;
-      if (at_surface(surface, mesh_, f) && fitted_[P] + fitted_[N] > 0) continue;
-      const Tensor L_f = (1 - lambda) * L_of(P) + lambda * L_of(N);
-      sum += out * dot(transpose(L_f + (-1) * surface.L[c]), mesh_.Sf[f]);
+      const Index P = mesh_.owner[f];
+      const Real out = P == c ? 1 : -1;
+      if (at_surface(surface, mesh_, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
+      Tensor L_f = there ? L_of(c) : none;
+      if (there && f < mesh_.n_internal)
+        L_f = (1 - weights.lambda[f]) * L_of(P) + weights.lambda[f] * L_of(mesh_.neighbour[f]);
+      sum += out * dot(transpose(L_f + (there && !in ? none : has)), mesh_.Sf[f]);
     }
     force[c] += (excess / mesh_.V[c]) * sum;
   }

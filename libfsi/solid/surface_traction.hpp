@@ -47,9 +47,9 @@ struct Viscosities {
 /// difference times D of the solid's own side: nothing would tie the fluid to a solid without
 /// viscosity.
 ///
-/// The transposed gradient of uncut solid cells becomes a sum of fluxes too, (mu_s - mu_f) L_f^T .
-/// S with L of the solid's side, for a more viscous solid in all, else in those beside the surface:
-/// what one cell loses another gets.
+/// Over the lesser viscosity, so that no flux is lost, the transposed gradient of uncut cells of
+/// the more viscous side becomes a sum of fluxes too, |mu_s - mu_f| L_f^T . S with L of that side:
+/// what one cell loses another gets. That of the other side is none.
 class SurfaceTraction {
  public:
   /// Collective.
@@ -66,6 +66,8 @@ class SurfaceTraction {
 
  private:
   void clear(const Band& band);
+  /// Of a cell of the more viscous side.
+  bool uncut(Real alpha) const;
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
@@ -87,7 +89,7 @@ class SurfaceTraction {
   Real mu_least_;               // that counts for the solid's in series
   CellField<Vec3> level_;       // sum_f g_cf s (alpha_n - alpha_c)
   CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut solid
-  CellField<Tensor> L_, L_in_;  // fit at the surface; the solid's in its uncut cells there
+  CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
   CellField<Real> fitted_;      // 1: has a fit
   CellField<Vec3> kink_;        // a
   CellField<SymTensor> own_;    // 2 D of the solid's side
