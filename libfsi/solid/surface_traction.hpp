@@ -88,7 +88,7 @@ class SurfaceTraction {
   Viscosities mu_;
   Real mu_least_;               // that counts for the solid's in series
   CellField<Vec3> level_;       // sum_f g_cf s (alpha_n - alpha_c)
-  CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut solid
+  CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut, more viscous
   CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
   CellField<Real> fitted_;      // 1: has a fit
   CellField<Vec3> kink_;        // a
