@@ -96,13 +96,17 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  if (!weights.non_orthogonal) return;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
+  if (weights.non_orthogonal) expect(mu_0);
+}
+
+void Momentum::expect(Real mu_max) {
+  Real spread = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
     Real sum = 0;
-    for (const Index f : mesh.cell_faces[c]) sum += weights.g[f];
-    spread_ = std::max(spread_, sum / mesh.V[c]);
+    for (const Index f : mesh_.cell_faces[c]) sum += weights_.g[f];
+    spread = std::max(spread, sum / mesh_.V[c]);
   }
-  spread_ = global_max(spread_);
+  rate_ = mu_max / rho_ * global_max(spread);
 }
 
 // In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit
@@ -111,11 +115,11 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
 // leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
 // theta = 1 it stays inside for |r| < 1.
 Real Momentum::theta_at(Real dt) const {
-  return spread_ > 0 ? std::max(theta, 1 - rho_ / (mu_0_ * spread_ * dt)) : theta;
+  return rate_ > 0 ? std::max(theta, 1 - 1 / (rate_ * dt)) : theta;
 }
 
 Real Momentum::extrapolated(Real dt) const {
-  return spread_ > 0 ? std::min(Real{1}, 2 * rho_ / (mu_0_ * spread_ * dt)) : 1;
+  return rate_ > 0 ? std::min(Real{1}, 2 / (rate_ * dt)) : 1;
 }
 
 void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,

@@ -72,6 +72,8 @@ class Momentum {
   /// a cell within the step, since the explicit rest would make it unstable. From 1/2 where
   /// l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
   Real theta_at(Real dt) const;
+  /// Collective. There is an explicit viscous rest, of a viscosity up to mu_max.
+  void expect(Real mu_max);
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 
@@ -85,7 +87,8 @@ class Momentum {
   const Mesh& mesh_;
   const FaceWeights& weights_;
   Real rho_, mu_0_;
-  Real spread_ = 0;  // largest sum over a cell's faces of g / V; 0 on orthogonal meshes
+  // mu / rho times the largest sum over a cell's faces of g / V; 0: no explicit viscous rest
+  Real rate_ = 0;
   std::vector<char> open_face_;
   std::vector<Vec3>
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal

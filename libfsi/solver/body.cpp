@@ -21,6 +21,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       B(mesh),
       alpha_f(mesh),
       normal_f(mesh),
+      normal(mesh),
+      height(mesh),
       lambda(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),
@@ -64,6 +66,7 @@ void Body::weigh() {
   if (extended()) {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
     vof::face_normal(normal_f, alpha, interface, mesh, band.faces());
+    vof::cell_plane(normal, height, alpha, interface, mesh, band.cells());
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }

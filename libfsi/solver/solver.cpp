@@ -60,6 +60,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
       balance_(mesh),
+      stiff_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
@@ -100,6 +101,11 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
                                            std::to_string(-body_->filled.clearance) +
                                            ": move it or make it smaller");
+  if (mu_varies()) {
+    momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
+    if (body_->extended())
+      traction_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+  }
   mix_viscosity();
   hold_backup();
 }
@@ -202,6 +208,8 @@ void Solver::stiffen(Real dt) {
                                 !map,
                                 body_->sided.has_value()};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
+  stiff_.assign(kappa_);
+  if (traction_) traction_->stiffen(stiff_, body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -210,6 +218,11 @@ void Solver::set_elastic_force() {
                                  body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
+  if (traction_)
+    traction_->apply(force_, balance_,
+                     {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
+                      body_->normal, body_->height, mu_},
+                     weights_, projection_.stencil(), body_->band);
   if (body_force_)
     body_force_->apply(force_, balance_, body_->alpha_f, weights_, projection_.stencil(),
                        body_->band);
@@ -220,7 +233,7 @@ void Solver::predict_momentum(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
-      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, kappa_, mu_varies(),
+      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, stiff_, mu_varies(),
                         stiff(), {force_, body}, dt);
 }
 
@@ -229,7 +242,7 @@ void Solver::predict_flux(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Real strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0;
   const flow::FluxTerms terms{state_.p,     grad_p_, p_b_,    L_,
-                              balance_,     mu_,     kappa_,  momentum_.theta_at(dt),
+                              balance_,     mu_,     stiff_,  momentum_.theta_at(dt),
                               physics_.rho, dt,      strained};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }

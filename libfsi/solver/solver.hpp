@@ -16,6 +16,7 @@
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solid/body_force.hpp"
+#include "libfsi/solid/surface_traction.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
 
@@ -167,12 +168,14 @@ class Solver {
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
   FaceField<Real> mu_, kappa_, balance_;
+  FaceField<Real> stiff_;  // kappa_ and that of the surface traction, where there is one
   GradientStencil u_stencil_;
   flow::Projection projection_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
-  std::optional<solid::BodyForce> body_force_;  // where there is one
+  std::optional<solid::BodyForce> body_force_;      // where there is one
+  std::optional<solid::SurfaceTraction> traction_;  // where the viscosities differ
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step

@@ -1,6 +1,7 @@
 #include "libfsi/vof/face_fraction.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "libfsi/geometry/cut.hpp"
 
@@ -60,6 +61,26 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
   }
 }
 
+void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,
+                const Interface& interface, const Mesh& mesh, std::span<const Index> cells) {
+  for (const Index c : cells) {
+    const Piece& p = interface.piece[c];
+    normal[c] = p.area > 0 ? p.n_hat : Vec3{};
+    height[c] = p.area > 0 ? dot(p.n_hat, mesh.C[c] - p.centre) : 0;
+    if (p.area > 0) continue;
+    Vec3 sum;
+    for (const Index f : mesh.cell_faces[c]) {
+      if (f >= mesh.n_internal) continue;
+      const bool owner = mesh.owner[f] == c;
+      const Index n = owner ? mesh.neighbour[f] : mesh.owner[f];
+      if (interface.piece[n].area > 0 || !(std::abs(alpha[n] - alpha[c]) > 0.5)) continue;
+      sum += (owner == (alpha[c] > alpha[n]) ? 1 : -1) * mesh.Sf[f];
+      height[c] = (alpha[c] > alpha[n] ? -1 : 1) * norm(mesh.Cf[f] - mesh.C[c]);
+    }
+    if (norm2(sum) > 0) normal[c] = sum / norm(sum);
+  }
+}
+
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces) {
   for (const Index f : faces) {
@@ -77,7 +98,8 @@ void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const In
         interface.piece[mesh.owner[f]].n_hat + interface.piece[mesh.neighbour[f]].n_hat;
     const Real size = norm(sum);
     const bool between = size == 0 && alpha[mesh.owner[f]] != alpha[mesh.neighbour[f]];
-    normal[f] = between ? mesh.Sf[f] / norm(mesh.Sf[f]) : size > 1e-6 ? sum / size : Vec3{};
+    const Real out = alpha[mesh.owner[f]] > alpha[mesh.neighbour[f]] ? 1 : -1;
+    normal[f] = between ? (out / norm(mesh.Sf[f])) * mesh.Sf[f] : size > 1e-6 ? sum / size : Vec3{};
   }
 }
 

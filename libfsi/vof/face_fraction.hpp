@@ -23,6 +23,11 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces);
 
+/// Where the surface runs in a cell, or between it and a neighbour: its normal out of the solid and
+/// the height of the cell's centre above it; zero elsewhere.
+void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,
+                const Interface& interface, const Mesh& mesh, std::span<const Index> cells);
+
 /// alpha_f = (1 - lambda) alpha_P + lambda alpha_N on the listed faces, whatever the planes.
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);

@@ -1,0 +1,250 @@
+#include "libfsi/solid/surface_traction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/one_sided.hpp"
+
+namespace fsi::solid {
+namespace {
+
+constexpr Real whole = 1 - 1e-8;  // alpha of an uncut cell: vof::interface_eps
+
+SymTensor twice_symmetric(const Tensor& L) {
+  return {2 * L.xx, L.xy + L.yx, L.xz + L.zx, 2 * L.yy, L.yz + L.zy, 2 * L.zz};
+}
+
+Vec3 along_surface(const Vec3& v, const Vec3& m) { return v - dot(v, m) * m; }
+
+bool cut(Real alpha) { return alpha < whole && alpha > 1 - whole; }
+
+/// Whether the surface lies between the centres of face f; rounding of alpha is none.
+bool at_surface(const Surface& surface, const Mesh& mesh, Index f) {
+  if (f >= mesh.n_internal || norm2(surface.normal_f[f]) == 0) return false;
+  const Real a = surface.alpha[mesh.owner[f]], b = surface.alpha[mesh.neighbour[f]];
+  return cut(a) || cut(b) || std::abs(a - b) > 0.5;
+}
+
+/// (v m + m v) . S
+Vec3 shear(const Vec3& v, const Vec3& m, const Vec3& S) { return dot(m, S) * v + dot(v, S) * m; }
+
+}  // namespace
+
+SurfaceTraction::SurfaceTraction(const Mesh& mesh, Real G, Viscosities mu)
+    : mesh_(mesh),
+      G_(G),
+      mu_(mu),
+      mu_least_(std::max(mu.solid, mu.fluid / 4)),
+      level_(mesh),
+      touch_(mesh),
+      L_(mesh),
+      L_in_(mesh),
+      fitted_(mesh),
+      kink_(mesh),
+      own_(mesh),
+      has_own_(mesh) {}
+
+bool SurfaceTraction::uncut(Real alpha) const {
+  return mu_.solid > mu_.fluid ? alpha > whole : alpha < 1 - whole;
+}
+
+void SurfaceTraction::clear(const Band& band) {
+  const auto reset = [&](Index c) {
+    level_[c] = kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0;
+  };
+  for (const Index c : last_cells_) reset(c), own_[c] = {};
+  for (const Index f : last_faces_) {
+    reset(mesh_.owner[f]);
+    if (f < mesh_.n_internal) reset(mesh_.neighbour[f]);
+  }
+  last_cells_ = band.cells();
+  last_faces_ = band.faces();
+}
+
+void SurfaceTraction::mark(const Surface& surface, const Band& band) {
+  for (const Index f : band.faces()) {
+    if (!at_surface(surface, mesh_, f)) continue;
+    for (const Index c : {mesh_.owner[f], mesh_.neighbour[f]})
+      if (c < mesh_.n_owned) touch_[c] = uncut(surface.alpha[c]) ? 2 : 1;
+  }
+  mesh_.halo.update(touch_);
+}
+
+// Each component of the fit for itself: M L^T = R^T - k a, a = (h - R M^-1 k) / (q - k M^-1 k).
+void SurfaceTraction::fit(const Surface& surface, Index c) {
+  const Vec3 m = surface.normal[c];
+  const Real height = surface.height[c];
+  fitted_[c] = 1;
+  SymTensor M;
+  Vec3 k, h;
+  Real q = 0;
+  Tensor R;
+  const Csr& around = mesh_.cell_neighbours;
+  for (Index i = around.offset[c]; i < around.offset[c + 1]; ++i) {
+    const Index n = around.index[i];
+    const Vec3 r = mesh_.C[n] - mesh_.C[c] + mesh_.translation[mesh_.cell_neighbour_shift[i]];
+    const Real w = 1 / norm2(r);
+    const Real depth = std::min(Real{0}, height + dot(m, r)) - std::min(Real{0}, height);
+    const Vec3 du = surface.u[n] - surface.u[c];
+    M += w * SymTensor{r.x * r.x, r.x * r.y, r.x * r.z, r.y * r.y, r.y * r.z, r.z * r.z};
+    k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
+    R += outer(w * du, r);
+  }
+  constexpr Real flat = 1e-3;  // part that counts as none left
+  const Real size = trace(M) / mesh_.dim;
+  if (mesh_.dim == 2) M.zz = 1;
+  if (!(det(M) > flat * std::pow(size, mesh_.dim))) {
+    L_[c] = surface.L[c], kink_[c] = {};
+    return;
+  }
+  const Tensor inv = inverse(Tensor{M.xx, M.xy, M.xz, M.xy, M.yy, M.yz, M.xz, M.yz, M.zz});
+  const Vec3 ik = dot(inv, k);
+  const Real rest = q - dot(k, ik);
+  const Vec3 a = rest > flat * q ? (1 / rest) * (h - dot(R, ik)) : Vec3{};
+  kink_[c] = along_surface(a, m);
+  L_[c] = dot(R + (-1) * outer(kink_[c], k), inv);
+}
+
+void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) {
+  const auto known = [&](Index c) { return surface.alpha[c] >= alpha_known; };
+  const bool in = mu_.solid > mu_.fluid;
+  const auto same = [&](Index c) { return known(c) == in; };
+  const auto inner = [&](Index c) { return uncut(surface.alpha[c]) && touch_[c] == 0; };
+  const auto none = [](Index) { return false; };
+  for (const Index c : band.cells()) {
+    if (touch_[c] > 1) L_in_[c] = one_sided_gradient(surface.L, surface.u, same, inner, mesh_, c);
+    if (touch_[c] == 0 || !known(c) || mu_least_ == mu_.solid) continue;
+    own_[c] = twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, mesh_, c));
+    has_own_[c] = 1;
+  }
+  if (mu_least_ == mu_.solid) return;
+  mesh_.halo.update(own_), mesh_.halo.update(has_own_);
+  for (const Index c : band.cells()) {
+    if (touch_[c] == 0 || has_own_[c] > 0) continue;
+    SymTensor sum;
+    Real weight = 0;
+    const Csr& around = mesh_.cell_neighbours;
+    for (Index i = around.offset[c]; i < around.offset[c + 1]; ++i) {
+      const Index n = around.index[i];
+      if (has_own_[n] != 1) continue;
+      const Vec3 r = mesh_.C[n] - mesh_.C[c] + mesh_.translation[mesh_.cell_neighbour_shift[i]];
+      sum += (1 / norm2(r)) * own_[n], weight += 1 / norm2(r);
+    }
+    if (weight > 0) own_[c] = (1 / weight) * sum, has_own_[c] = 2;
+  }
+  mesh_.halo.update(own_);
+}
+
+SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m, Real lambda) const {
+  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  const Real both = fitted_[P] + fitted_[N];
+  const Real p = fitted_[P] / both, n = fitted_[N] / both;
+  return {p * L_[P] + n * L_[N], along_surface(p * kink_[P] + n * kink_[N], m),
+          (1 - lambda) * own_[P] + lambda * own_[N]};
+}
+
+void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+                           const FaceWeights& weights, const GradientStencil& stencil,
+                           const Band& band) {
+  const CellField<Real>& alpha = surface.alpha;
+  const Real excess = mu_.solid - mu_.fluid;
+  for (const Index f : band.faces()) {
+    if (!at_surface(surface, mesh_, f)) continue;
+    const Vec3 m = surface.normal_f[f];
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    if (fitted_[P] + fitted_[N] == 0) continue;
+    const Real lambda = weights.lambda[f], a_f = surface.alpha_f[f];
+    const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], du = surface.u[N] - surface.u[P];
+    const Sides side = sides(f, m, lambda);
+    const Tensor L = side.L + a_f * outer(side.a, m);
+    const SymTensor D = twice_symmetric(L);
+    const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
+    const Real s = excess * dot(Dm, m), mu_h = 1 / (a_f / mu_least_ + (1 - a_f) / mu_.fluid);
+    // (m . S) e with the difference along d, and m (e . S)
+    const Vec3 bend = along_surface(
+        weights.g[f] * (du - dot(L, along_surface(d, m))) + dot(m, S) * dot(transpose(L), m), m);
+    const Vec3 Bm = dot(G_ * ((1 - lambda) * surface.B[P] + lambda * surface.B[N]), m);
+    const Vec3 lent = (mu_least_ - mu_.solid) * dot(side.own, m);
+    const Real series = a_f * mu_h / mu_least_;
+    const Vec3 traction = (mu_h - mu_.fluid) * (bend + dot(e, S) * m) +
+                          (series - a_f) * shear(along_surface(Bm, m), m, S) -
+                          series * shear(along_surface(lent, m), m, S);
+    const Vec3 level_part = (a_f * excess) * (dot(D, S) - shear(e, m, S)) - (a_f * s) * S;
+    // what the momentum equation has
+    const Tensor mean = (1 - lambda) * surface.L[P] + lambda * surface.L[N];
+    const Vec3 compact = weights.g[f] * du + dot(mean, weights.k[f]);
+    const Real mine = surface.mu[f] - mu_.fluid;
+    const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
+    const auto part = [&](Index c) {
+      return traction + transposed + level_part + (alpha[c] * s) * S -
+             mine * (compact + dot(transpose(surface.L[c]), S));
+    };
+    force[P] += (1 / mesh_.V[P]) * part(P);
+    force[N] -= (1 / mesh_.V[N]) * part(N);
+    const Real jump = s * (alpha[N] - alpha[P]);
+    level_[P] += jump * stencil.owner[f];
+    level_[N] -= jump * stencil.neighbour[f];
+    balance[f] += jump;
+  }
+}
+
+void SurfaceTraction::push_transposed(CellField<Vec3>& force, const Surface& surface,
+                                      const FaceWeights& weights, const Band& band) const {
+  const Real excess = std::abs(mu_.solid - mu_.fluid);
+  const bool in = mu_.solid > mu_.fluid;
+  const auto L_of = [&](Index c) -> const Tensor& {
+    return touch_[c] > 1 ? L_in_[c] : surface.L[c];
+  };
+  for (const Index c : band.cells()) {
+    const bool there = uncut(surface.alpha[c]);
+    if (!there && (in || surface.alpha[c] <= whole)) continue;
+    // what the momentum equation has in the solid, of |mu_s - mu_f|
+    const Tensor has = (in ? -1 : 1) * surface.L[c];
+    const Tensor none{};
+    Vec3 sum;
+    for (const Index f : mesh_.cell_faces[c]) {
+      const Index P = mesh_.owner[f];
+      const Real out = P == c ? 1 : -1;
+      if (at_surface(surface, mesh_, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
+      Tensor L_f = there ? L_of(c) : none;
+      if (there && f < mesh_.n_internal)
+        L_f = (1 - weights.lambda[f]) * L_of(P) + weights.lambda[f] * L_of(mesh_.neighbour[f]);
+      sum += out * dot(transpose(L_f + (there && !in ? none : has)), mesh_.Sf[f]);
+    }
+    force[c] += (excess / mesh_.V[c]) * sum;
+  }
+}
+
+void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
+                            const Surface& surface, const FaceWeights& weights,
+                            const GradientStencil& stencil, const Band& band) {
+  clear(band);
+  mark(surface, band);
+  for (const Index c : band.cells())
+    if (norm2(surface.normal[c]) > 0) fit(surface, c);
+  mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
+  take_own_strain(surface, band);
+  mesh_.halo.update(L_in_);
+  push(force, balance, surface, weights, stencil, band);
+  push_transposed(force, surface, weights, band);
+  mesh_.halo.update(level_);
+  for (const Index c : band.cells()) force[c] += level_[c];
+  for (const Index f : band.faces()) {
+    if (f >= mesh_.n_internal) continue;
+    const Real lambda = weights.lambda[f];
+    balance[f] -= dot((1 - lambda) * level_[mesh_.owner[f]] + lambda * level_[mesh_.neighbour[f]],
+                      mesh_.d[f]);
+  }
+  mesh_.halo.update(force);
+}
+
+void SurfaceTraction::stiffen(FaceField<Real>& kappa, const Band& band) const {
+  for (const Index f : band.faces()) {
+    Real touched = touch_[mesh_.owner[f]];
+    if (f < mesh_.n_internal) touched += touch_[mesh_.neighbour[f]];
+    if (touched > 0) kappa[f] += std::abs(mu_.solid - mu_.fluid);
+  }
+}
+
+}  // namespace fsi::solid

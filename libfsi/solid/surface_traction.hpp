@@ -1,0 +1,100 @@
+#pragma once
+// The viscous stress at the solid's surface, where its viscosity is another than the fluid's.
+
+#include <vector>
+
+#include "libfsi/field/band.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/gradient.hpp"
+
+namespace fsi::solid {
+
+/// What the traction is made of; cell fields owned and halo.
+struct Surface {
+  const CellField<Vec3>& u;
+  const CellField<Tensor>& L;     ///< velocity gradient
+  const CellField<SymTensor>& B;  ///< known around the surface
+  const CellField<Real>& alpha;
+  const FaceField<Real>& alpha_f;   ///< part of solid on the way between the centres
+  const FaceField<Vec3>& normal_f;  ///< of the surface there, zero away from it
+  const CellField<Vec3>& normal;    ///< out of the solid; zero away from the surface
+  const CellField<Real>& height;    ///< of the cell's centre above the surface
+  const FaceField<Real>& mu;        ///< what the momentum equation has, the mean of the cells'
+};
+
+struct Viscosities {
+  Real solid, fluid;
+};
+
+/// Puts in place of what the momentum equation has at faces at the surface (normal m) a viscous
+/// stress that is exact for a linear velocity with a kink a m, a . m = 0, at a plane surface. The
+/// traction along the surface is one, of viscosities in series:
+///
+///   T = mu_s (2 D_s . m)_t + G (B . m)_t = mu_f (2 D_f . m)_t,   t: along the surface
+///   T = mu_h ((2 D . m)_t + alpha_f G (B . m)_t / mu_s),   1 / mu_h = alpha_f / mu_s
+///       + (1 - alpha_f) / mu_f,   2 D . m = alpha_f 2 D_s . m + (1 - alpha_f) 2 D_f . m
+///
+/// and so is D without its part (D . m)_t, D^0. With s = (mu_s - mu_f) 2 m . D . m the excess over
+/// mu_f 2 D and over what the elastic stress has is
+///
+///   (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
+///     + alpha_f ((mu_s - mu_f) 2 D^0 - s I) + alpha_c s I,   e = (2 D . m)_t, b = (B . m)_t
+///
+/// and sum_f g_cf s (alpha_n - alpha_c): a jump of the pressure bears s (neo_hookean.hpp). D is
+/// that of the cells' least-squares fit of L . r + a (min(0, h + m . r) - min(0, h)); but in e . m
+/// the difference along d is that of the face. mu_s counts as mu_f / 4 at least, less the
+/// difference times D of the solid's own side: nothing would tie the fluid to a solid without
+/// viscosity.
+///
+/// Over the lesser viscosity, so that no flux is lost, the transposed gradient of uncut cells of
+/// the more viscous side becomes a sum of fluxes too, |mu_s - mu_f| L_f^T . S with L of that side:
+/// what one cell loses another gets. That of the other side is none.
+class SurfaceTraction {
+ public:
+  /// Collective.
+  SurfaceTraction(const Mesh& mesh, Real G, Viscosities mu);
+
+  /// Collective. Adds to the force, and the jump of s to the face flux's balance. band: that of the
+  /// elastic stress, force and balance cleared there.
+  void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+             const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+
+  /// After apply: kappa_f += |mu_s - mu_f| at the faces of cells at the surface, an implicit
+  /// counterpart of the change of u in a step, which makes the explicit stress stable.
+  void stiffen(FaceField<Real>& kappa, const Band& band) const;
+
+ private:
+  void clear(const Band& band);
+  /// Of a cell of the more viscous side.
+  bool uncut(Real alpha) const;
+  void mark(const Surface& surface, const Band& band);
+  void fit(const Surface& surface, Index c);
+  void take_own_strain(const Surface& surface, const Band& band);
+  void push(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+            const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+  void push_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
+                       const Band& band) const;
+  /// Gradient along the surface, kink and the solid's own D at a face.
+  struct Sides {
+    Tensor L;
+    Vec3 a;
+    SymTensor own;
+  };
+  Sides sides(Index f, const Vec3& m, Real lambda) const;
+
+  const Mesh& mesh_;
+  Real G_;
+  Viscosities mu_;
+  Real mu_least_;               // that counts for the solid's in series
+  CellField<Vec3> level_;       // sum_f g_cf s (alpha_n - alpha_c)
+  CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut, more viscous
+  CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
+  CellField<Real> fitted_;      // 1: has a fit
+  CellField<Vec3> kink_;        // a
+  CellField<SymTensor> own_;    // 2 D of the solid's side
+  CellField<Real> has_own_;     // 1: of its own cells, 2: continued
+  std::vector<Index> last_cells_, last_faces_;
+};
+
+}  // namespace fsi::solid

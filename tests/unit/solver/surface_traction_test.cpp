@@ -1,0 +1,72 @@
+// Viscous stress at a surface between two viscosities.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/momentum.hpp"
+#include "libfsi/solid/surface_traction.hpp"
+#include "libfsi/solver/body.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// Largest viscous force of u = (k x + g (y - y_0), -k (y - y_0)), mu g one on both sides of the
+/// surface y_0, less that which the jump of the pressure bears; two cells from the sides.
+Real left_over(Real y_0, const solid::Viscosities& mu, Real k) {
+  const Mesh mesh = test::read_box({.n = {8, 10, 0}, .length = {1.6, 2, 1}, .periodic = {}});
+  const FaceWeights weights(mesh);
+  const Body body(mesh, weights, shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), 0,
+                  KinematicsKind::log_conformation);
+  const auto velocity = [&](const Vec3& x) {
+    const Real y = x.y - y_0;
+    return Vec3{k * x.x + y / (y < 0 ? mu.solid : mu.fluid), -k * y, 0};
+  };
+  CellField<Vec3> u(mesh), visc(mesh), force(mesh);
+  BoundaryField<Vec3> u_b(mesh);
+  for (Index c = 0; c < mesh.n_cells; ++c) u[c] = velocity(mesh.C[c]);
+  for (Index b = 0; b < mesh.n_boundary(); ++b) u_b[b] = velocity(mesh.Cf[mesh.n_internal + b]);
+  const GradientStencil of_u(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
+      of_p(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  CellField<Tensor> L(mesh);
+  gradient(L, u, u_b, of_u, mesh);
+  FaceField<Real> mu_f(mesh), balance(mesh);
+  flow::mixture_viscosity(mu_f, body.alpha, mu.fluid, mu.solid, weights, mesh);
+  const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  flow::viscous_compact(visc, mu_f, u, u_b, open, weights, mesh);
+  flow::viscous_rest(visc, mu_f, mu.fluid, L, open, weights, mesh);
+  solid::SurfaceTraction traction(mesh, 0, mu);
+  traction.apply(
+      force, balance,
+      {u, L, body.B, body.alpha, body.alpha_f, body.normal_f, body.normal, body.height, mu_f},
+      weights, of_p, body.band);
+  CellField<Real> s(mesh);
+  for (Index c = 0; c < mesh.n_cells; ++c) s[c] = -2 * k * (mu.solid - mu.fluid) * body.alpha[c];
+  CellField<Vec3> grad_s(mesh);
+  gradient(grad_s, s, BoundaryField<Real>(mesh), of_p, mesh);
+  Real worst = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Vec3 x = mesh.C[c];
+    if (std::min({x.x, 1.6 - x.x, x.y, 2 - x.y}) < 0.4) continue;
+    worst = std::max(worst, norm((1 / mesh.V[c]) * visc[c] + force[c] - grad_s[c]));
+  }
+  return global_max(worst);
+}
+
+TEST(SurfaceTraction, ALinearVelocityWithAKinkLeavesNoForce) {
+  for (const solid::Viscosities& mu :
+       {solid::Viscosities{5, 1}, solid::Viscosities{0.3, 1}, solid::Viscosities{1, 100}})
+    for (const Real k : {0.0, 1.0}) {
+      const Real size = std::max(mu.solid, mu.fluid);
+      EXPECT_LT(left_over(1, mu, k), 1e-9 * size) << "strain " << k << ", on faces";
+      EXPECT_LT(left_over(1.1, mu, k), 1e-9 * size) << "strain " << k << ", in mid-cell";
+      // as level as the planes of the reconstruction
+      EXPECT_LT(left_over(1.07, mu, k), 2e-3 * size) << "strain " << k << ", elsewhere";
+    }
+}
+
+}  // namespace
+}  // namespace fsi

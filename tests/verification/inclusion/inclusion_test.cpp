@@ -1,0 +1,93 @@
+// A disc r < 1 of another viscosity in a fluid that is strained and turned, u = E.x + w x x far
+// away, Stokes flow: with ratio the quotient of the viscosities, q = x.E.x,
+//   u = c E.x within,  c = 2 / (1 + ratio),
+//   u = (1 + b / r^4) E.x + 2 b (1 / r^4 - 1 / r^6) q x without,  b = c - 1,
+// and the rotation besides. The box has the exact velocity at its sides, and that is so small that
+// the disc stays where it is.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+struct Exact {
+  Real ratio, angle;
+
+  Real c() const { return 2 / (1 + ratio); }
+  Vec3 u(const Vec3& x) const {
+    const Real r2 = norm2(x), r4 = r2 * r2, b = c() - 1;
+    const Vec3 e{std::cos(angle) * x.x + std::sin(angle) * x.y,
+                 std::sin(angle) * x.x - std::cos(angle) * x.y, 0};
+    const Vec3 turned{-x.y, x.x, 0};
+    if (r2 < 1) return c() * e + turned;
+    return (1 + b / r4) * e + (2 * b * (1 / r4 - 1 / (r4 * r2)) * dot(x, e)) * x + turned;
+  }
+  /// E : L.
+  Real strain(const Tensor& L) const {
+    return (std::cos(angle) * (L.xx - L.yy) + std::sin(angle) * (L.xy + L.yx)) / 2;
+  }
+};
+
+struct Errors {
+  Real u = 0;       ///< root mean square
+  Real strain = 0;  ///< mean of r < 0.6, relative
+};
+
+/// n cells in the radius.
+Errors errors(const Exact& exact, Index n) {
+  const Vec3 centre{2.013, 2.027, 0};
+  constexpr Real scale = 1e-3, rho = 1e-3, dt = 1e-3;
+  const Mesh mesh = test::read_box({.n = {4 * n, 4 * n, 0}, .length = {4, 4, 1}, .periodic = {}});
+  const FixedVelocity far{[&](const Vec3& x, Real) { return scale * exact.u(x - centre); }};
+  Solver solver(mesh, {.rho = rho, .mu_f = 1, .mu_s = exact.ratio, .G = 1e-9},
+                {.conditions = {{"bottom", far}, {"top", far}, {"left", far}, {"right", far}}});
+  solver.start([&](const Vec3& x) { return scale * exact.u(x - centre); });
+  solver.put_solid(shapes::translate(shapes::sphere(1), centre));
+  for (int step = 0; step < 40; ++step) solver.step(dt);
+  const CellField<Tensor>& L = solver.velocity_gradient();
+  Sum square, volume, strain, middle;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Vec3 x = mesh.C[c] - centre;
+    square.add(mesh.V[c] * norm2((1 / scale) * solver.state().u[c] - exact.u(x)));
+    volume.add(mesh.V[c]);
+    if (norm(x) > 0.6) continue;
+    strain.add(mesh.V[c] * exact.strain(L[c]) / scale);
+    middle.add(mesh.V[c]);
+  }
+  return {std::sqrt(square.total() / volume.total()),
+          strain.total() / middle.total() / exact.c() - 1};
+}
+
+void expect(Real ratio, Real angle, Real u, Real strain) {
+  const Exact exact{ratio, angle};
+  const Errors coarse = errors(exact, 8), fine = errors(exact, 16);
+  std::printf("viscosity ratio %g, axis at %g: u %.2e %.2e, order %.2f; strain %+.2f %+.2f %%\n",
+              ratio, angle * 90 / std::numbers::pi, coarse.u, fine.u, std::log2(coarse.u / fine.u),
+              100 * coarse.strain, 100 * fine.strain);
+  EXPECT_LE(fine.u, u);
+  EXPECT_GE(std::log2(coarse.u / fine.u), 1.3);
+  EXPECT_LE(std::abs(fine.strain), strain);
+}
+
+TEST(Inclusion, MoreViscous) {
+  expect(5, 0, 2e-3, 0.01);
+  expect(5, std::numbers::pi / 2, 2e-3, 0.012);
+}
+
+TEST(Inclusion, LessViscous) {
+  expect(0.2, 0, 3e-3, 0.005);
+  expect(0.2, std::numbers::pi / 2, 3e-3, 0.005);
+}
+
+TEST(Inclusion, MuchMoreViscous) { expect(30, 0, 1e-2, 0.1); }
+
+}  // namespace
+}  // namespace fsi
