@@ -76,23 +76,6 @@ struct Profile {
   }
 };
 
-/// (1 / V) int max(0, n . x - s) dV = (1 / ((dim + 1) V)) sum over facets of
-///   (x . S - s n . S) mean over the facet of max(0, n . x - s),
-/// Gauss's theorem for (x - s n) max(0, n . x - s), whose divergence is dim + 1 times the last.
-template <int dim>
-Real mean_above_of(const Polytope& cell, const Plane& plane) {
-  const Profile<dim> profile(cell, plane.n);
-  Real sum = 0;
-  for (int i = 0; i < profile.n_items; ++i) {
-    const auto& item = profile.items[i];
-    const Real above = item.q[dim - 1] - plane.s;
-    if (!(above > 0)) continue;
-    const Real part = 1 - mean_part_below(item.q, plane.s, item.q[dim - 1]);
-    sum += (item.xS - plane.s * item.nS) * above * part;
-  }
-  return std::max(Real{0}, sum / ((dim + 1) * profile.whole));
-}
-
 /// A cubic on [0, 1] by its values at 0, 1/3, 2/3, 1, in Newton's form
 ///   y0 + t (c1 + (t - 1/3) (c2 + (t - 2/3) c3)).
 struct Cubic {
@@ -267,10 +250,6 @@ Real measure(const Polytope& cell) {
 Real measure_below(const Polytope& cell, const Plane& plane) {
   return cell.dim() == 2 ? Profile<2>(cell, plane.n).below(plane.s)
                          : Profile<3>(cell, plane.n).below(plane.s);
-}
-
-Real mean_above(const Polytope& cell, const Plane& plane) {
-  return cell.dim() == 2 ? mean_above_of<2>(cell, plane) : mean_above_of<3>(cell, plane);
 }
 
 Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction) {

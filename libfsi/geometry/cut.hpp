@@ -75,9 +75,6 @@ Real measure(const Polytope& cell);
 /// Area or volume below the plane; its error is a few units of round-off of the cell's.
 Real measure_below(const Polytope& cell, const Plane& plane);
 
-/// Mean over the cell of max(0, n . x - s): of the distance from the plane of what lies above it.
-Real mean_above(const Polytope& cell, const Plane& plane);
-
 /// The plane of normal n (unit) with the part `fraction` in (0, 1) of the cell below it, to a few
 /// units of round-off. Each side serves alike: n, fraction and -n, 1 - fraction give one plane.
 Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction);

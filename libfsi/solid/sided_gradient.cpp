@@ -57,9 +57,8 @@ void SidedGradient::clear_kinks() {
 void SidedGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
                               std::span<const Index> cells) {
   for (const Index c : cells) {
-    const Vec3 q = cuts.beyond[c] + cuts.behind[c];
-    if (!(norm2(q) > 0)) continue;
-    const Vec3 n = q / norm(q);
+    const Vec3& n = cuts.normal[c];
+    if (norm2(n) == 0) continue;
     Tensor in, out;
     Real w_in = 0, w_out = 0;
     for (const Index k : mesh_.cell_neighbours[c]) {
@@ -72,8 +71,8 @@ void SidedGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
     if (!(w_in > 0 && w_out > 0)) continue;
     const Vec3 jump = dot((1 / w_out) * out + (-1 / w_in) * in, n);
     const Vec3 along = jump - dot(jump, n) * n;
-    kink_in_[c] = norm(cuts.beyond[c]) * along;
-    kink_out_[c] = norm(cuts.behind[c]) * along;
+    kink_in_[c] = cuts.beyond[c] * along;
+    kink_out_[c] = cuts.behind[c] * along;
     kinked_.push_back(c);
   }
   mesh_.halo.update(kink_in_);

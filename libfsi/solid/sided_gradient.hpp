@@ -12,11 +12,13 @@ namespace fsi::solid {
 /// Collective. Whether the mesh has triangles or tetrahedra.
 bool has_simplices(const Mesh& mesh);
 
-/// Where the surface cuts cells. All owned and halo.
+/// Where the surface cuts cells, and what a kink j max(0, s) of u there, s the distance along n,
+/// adds to their velocity. All owned and halo.
 struct Cuts {
   const CellField<Real>& alpha;
-  const CellField<Vec3>& beyond;  ///< n mean(max(0, s)), s the distance from the surface along n
-  const CellField<Vec3>& behind;  ///< n mean(max(0, -s)); both zero in cells that are not cut
+  const CellField<Vec3>& normal;  ///< n, out of the solid; zero in cells that are not cut
+  const CellField<Real>& beyond;  ///< phi: to that of the solid's side, u = u_S + j phi
+  const CellField<Real>& behind;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
 };
 
 /// Sets L in the solid's cells (alpha >= 1/2) and those that share a vertex with one.
@@ -33,8 +35,8 @@ struct Cuts {
 /// stress as that acts on the velocity: one of the few values of one side alone does not, and a
 /// wisp in a corner of the cavity tore the flow apart.
 ///
-/// The velocity of a cut cell is the mean over it, with the kink u_S + j max(0, s). The fit of the
-/// solid's side takes u - j mean(max(0, s)), that of the fluid's u - j mean(max(0, -s)) (Cuts).
+/// The velocity of a cut cell is neither side's: the fit of the solid's takes u - j phi, that of
+/// the fluid's u - j (phi - s) (Cuts),
 ///   j = (I - n n) . (L_out - L_in) . n,
 /// the normal part left out as div u = 0 leaves none there: from a first fit without it, L_in and
 /// L_out the means over the vertex neighbours on either side, with weights alpha and 1 - alpha.

@@ -127,32 +127,6 @@ TEST(Cut, BothSidesFillTheCell) {
   }
 }
 
-TEST(Cut, MeanAboveOfKnownCells) {
-  for (const Real s : {0.0, 0.3, 0.9, 1.0}) {
-    const Real rest = 1 - s;
-    EXPECT_NEAR(mean_above(quad().polytope(2), {{1, 0, 0}, s}), rest * rest / 2, 1e-16);
-    EXPECT_NEAR(mean_above(triangle().polytope(2), {{1, 0, 0}, s}), rest * rest * rest / 3, 1e-16);
-    EXPECT_NEAR(mean_above(hex().polytope(), {{0, 0, 1}, s}), rest * rest / 2, 1e-16);
-    EXPECT_NEAR(mean_above(tet().polytope(), {{0, 0, 1}, s}), std::pow(rest, 4) / 4, 1e-16);
-  }
-  EXPECT_EQ(mean_above(tet().polytope(), {{0, 0, 1}, 1.5}), 0);
-  EXPECT_NEAR(mean_above(tet().polytope(), {{0, 0, 1}, -1}), 1.25, 1e-15);
-}
-
-// Its slope along the normal is less the part above.
-TEST(Cut, MeanAboveFallsWithThePartAbove) {
-  Random random(3);
-  for (int i = 0; i < 3000; ++i) {
-    const auto [cell, V] = sample(i % 6, random);
-    const Vec3 n = any_normal(random, cell.dim());
-    const Real s = any(random, -0.5, 1.5), step = 1e-5;
-    const Real slope =
-        (mean_above(cell, {n, s + step}) - mean_above(cell, {n, s - step})) / (2 * step);
-    const Real part = 1 - measure_below(cell, {n, s}) / V;
-    ASSERT_NEAR(slope, -part, 1e-3) << i;
-  }
-}
-
 TEST(Cut, PlaneAtTheFraction) {
   Random random(2);
   for (int i = 0; i < 12000; ++i) {
