@@ -82,7 +82,7 @@ struct Body {
   solid::NeoHookean law;
   solid::Stiffness stiffness;
   std::optional<solid::SidedGradient> sided;  ///< where the velocity gradient needs it
-  vof::Reach reach;                           ///< of cut cells, where that is
+  std::optional<vof::Reach> reach;            ///< of cut cells, beside it
   CellField<solid::SymGradient> grad;         ///< scratch of both
   vof::Filled filled;                         ///< volume and its error at the start
   std::vector<Index> last_cells;              ///< where B was set

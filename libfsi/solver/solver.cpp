@@ -169,10 +169,10 @@ void Solver::transport_elastic() {
           mesh_.halo.update(L_);
         }
         if (sided) {
-          body_->reach.set(body_->interface, weights_);
+          body_->reach->set(body_->interface, weights_);
           body_->sided->apply(
               L_, state_.u, u_b_,
-              {body_->alpha, body_->reach.normal, body_->reach.beyond, body_->reach.behind},
+              {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
               k.strained());
         }
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
