@@ -5,27 +5,27 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/extension.hpp"
-#include "libfsi/solid/one_sided.hpp"
 #include "libfsi/solid/quadratic_fit.hpp"
 
 namespace fsi::solid {
 namespace {
 
-/// The fit about c over the neighbours n with same(n), with their L where has_L(n).
-template <class Same, class HasL>
-std::optional<Tensor> fit(const CellField<Tensor>& L, const CellField<Vec3>& u,
+/// The fit about c over the neighbours n with same(n), with their L where has_L(n). u(n): velocity.
+template <class Velocity, class Same, class HasL>
+std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
                           const BoundaryField<Vec3>& u_b, const Same& same, const HasL& has_L,
                           const Mesh& mesh, Index c) {
   QuadraticFit quadratic(mesh.dim, mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]));
+  const Vec3 u_c = u(c);
   for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
     const Index n = mesh.cell_neighbours.index[k];
     if (!same(n)) continue;
     const Vec3 r = mesh.C[n] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[k]];
-    quadratic.add_value(r, u[n] - u[c]);
+    quadratic.add_value(r, u(n) - u_c);
     if (has_L(n)) quadratic.add_gradient(r, L[n]);
   }
   for (const Index f : mesh.cell_faces[c])
-    if (f >= mesh.n_internal) quadratic.add_value(mesh.d[f], u_b[f - mesh.n_internal] - u[c]);
+    if (f >= mesh.n_internal) quadratic.add_value(mesh.d[f], u_b[f - mesh.n_internal] - u_c);
   return quadratic.gradient();
 }
 
@@ -39,15 +39,58 @@ bool has_simplices(const Mesh& mesh) {
 }
 
 void SidedGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
-                          const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                          const BoundaryField<Vec3>& u_b, const Cuts& cuts,
                           std::span<const Index> cells) {
+  clear_kinks();
+  fit_cells(L, u, u_b, cuts.alpha, cells);
+  set_kinks(L, cuts, cells);
+  fit_cells(L, u, u_b, cuts.alpha, cells);
+}
+
+void SidedGradient::clear_kinks() {
+  for (const Index c : kinked_) kink_in_[c] = kink_out_[c] = {};
+  kinked_.clear();
+  mesh_.halo.update(kink_in_);
+  mesh_.halo.update(kink_out_);
+}
+
+void SidedGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
+                              std::span<const Index> cells) {
+  for (const Index c : cells) {
+    const Vec3& n = cuts.normal[c];
+    if (norm2(n) == 0) continue;
+    Tensor in, out;
+    Real w_in = 0, w_out = 0;
+    for (const Index k : mesh_.cell_neighbours[c]) {
+      const Real alpha = cuts.alpha[k];
+      if (alpha >= alpha_known)
+        in += alpha * L[k], w_in += alpha;
+      else
+        out += (1 - alpha) * L[k], w_out += 1 - alpha;
+    }
+    if (!(w_in > 0 && w_out > 0)) continue;
+    const Vec3 jump = dot((1 / w_out) * out + (-1 / w_in) * in, n);
+    const Vec3 along = jump - dot(jump, n) * n;
+    kink_in_[c] = cuts.beyond[c] * along;
+    kink_out_[c] = cuts.behind[c] * along;
+    kinked_.push_back(c);
+  }
+  mesh_.halo.update(kink_in_);
+  mesh_.halo.update(kink_out_);
+}
+
+void SidedGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u,
+                              const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                              std::span<const Index> cells) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto none = [](Index) { return false; };
+  const auto u_in = [&](Index c) { return u[c] - kink_in_[c]; };
+  const auto u_out = [&](Index c) { return u[c] - kink_out_[c]; };
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();
   for (const Index c : cells) {
     if (!known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known)) continue;
-    const auto whole = fit(L, u, u_b, known, none, mesh_, c);
+    const auto whole = fit(L, u_in, u_b, known, none, mesh_, c);
     if (!whole) continue;
     L[c] = *whole;
     deep_[c] = 1;
@@ -60,8 +103,9 @@ void SidedGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
     if (deep(c)) continue;
     const bool in = known(c);
     const auto same = [&](Index n) { return known(n) == in; };
-    const auto sided = fit(L, u, u_b, same, deep, mesh_, c);
-    L[c] = sided ? *sided : one_sided_gradient(L, u, same, none, mesh_, c);
+    const auto sided =
+        in ? fit(L, u_in, u_b, same, deep, mesh_, c) : fit(L, u_out, u_b, same, none, mesh_, c);
+    if (sided) L[c] = *sided;
   }
   mesh_.halo.update(L);
 }

@@ -12,6 +12,15 @@ namespace fsi::solid {
 /// Collective. Whether the mesh has triangles or tetrahedra.
 bool has_simplices(const Mesh& mesh);
 
+/// Where the surface cuts cells, and what a kink j max(0, s) of u there, s the distance along n,
+/// adds to their velocity. All owned and halo.
+struct Cuts {
+  const CellField<Real>& alpha;
+  const CellField<Vec3>& normal;  ///< n, out of the solid; zero in cells that are not cut
+  const CellField<Real>& beyond;  ///< phi: to that of the solid's side, u = u_S + j phi
+  const CellField<Real>& behind;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
+};
+
 /// Sets L in the solid's cells (alpha >= 1/2) and those that share a vertex with one.
 ///
 /// A triangle is not symmetric about its centre: the library's gradient is off by a part of
@@ -21,21 +30,37 @@ bool has_simplices(const Mesh& mesh);
 ///
 /// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
 /// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells of the solid beside its
-/// surface take the gradients of those farther in as well. Where that does not tell it, L is the
-/// linear fit of the own side (one_sided.hpp).
+/// surface take the gradients of those farther in as well. Where that does not tell it, the solid
+/// or what is around it being thinner than the stencil, L stays the library's, which answers to the
+/// stress as that acts on the velocity: one of the few values of one side alone does not, and a
+/// wisp in a corner of the cavity tore the flow apart.
+///
+/// The velocity of a cut cell is neither side's: the fit of the solid's takes u - j phi, that of
+/// the fluid's u - j (phi - s) (Cuts),
+///   j = (I - n n) . (L_out - L_in) . n,
+/// the normal part left out as div u = 0 leaves none there: from a first fit without it, L_in and
+/// L_out the means over the vertex neighbours on either side, with weights alpha and 1 - alpha.
 class SidedGradient {
  public:
-  explicit SidedGradient(const Mesh& mesh) : mesh_(mesh), deep_(mesh) {}
+  explicit SidedGradient(const Mesh& mesh)
+      : mesh_(mesh), deep_(mesh), kink_in_(mesh), kink_out_(mesh) {}
 
-  /// Collective. cells: owned, as above. L on entry: the library's gradient there; L, u, alpha:
-  /// owned and halo.
+  /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
-             const CellField<Real>& alpha, std::span<const Index> cells);
+             const Cuts& cuts, std::span<const Index> cells);
 
  private:
+  void clear_kinks();
+  void set_kinks(const CellField<Tensor>& L, const Cuts& cuts, std::span<const Index> cells);
+  void fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                 const CellField<Real>& alpha, std::span<const Index> cells);
+
   const Mesh& mesh_;
   CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
   std::vector<Index> last_deep_;
+  CellField<Vec3> kink_in_,
+      kink_out_;  // what a kink adds to u, by the solid's and the fluid's side
+  std::vector<Index> kinked_;
 };
 
 }  // namespace fsi::solid

@@ -33,7 +33,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       stiffness(mesh),
       grad(mesh),
       filled(vof::fill(alpha, mesh, shape)) {
-  if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh)) sided.emplace(mesh);
+  if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh))
+    sided.emplace(mesh), reach.emplace(mesh);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
 }

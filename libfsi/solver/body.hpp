@@ -17,6 +17,7 @@
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/fill.hpp"
+#include "libfsi/vof/reach.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi {
@@ -87,6 +88,7 @@ struct Body {
   solid::NeoHookean law;
   solid::Stiffness stiffness;
   std::optional<solid::SidedGradient> sided;  ///< where the velocity gradient needs it
+  std::optional<vof::Reach> reach;            ///< of cut cells, beside it
   CellField<solid::SymGradient> grad;         ///< scratch of both
   vof::Filled filled;                         ///< volume and its error at the start
   std::vector<Index> last_cells;              ///< where B was set

@@ -174,7 +174,13 @@ void Solver::transport_elastic() {
           gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
           mesh_.halo.update(L_);
         }
-        if (sided) body_->sided->apply(L_, state_.u, u_b_, body_->alpha, k.strained());
+        if (sided) {
+          body_->reach->set(body_->interface, weights_);
+          body_->sided->apply(
+              L_, state_.u, u_b_,
+              {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
+              k.strained());
+        }
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
       },
       body_->kinematics);

@@ -187,6 +187,14 @@ TEST(Slab, Triangles) {
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.5);
 }
 
+TEST(Slab, TrianglesInMidCell) {
+  const auto [coarse, fine] = converge({viscous, KinematicsKind::log_conformation, true}, 17, 33);
+  EXPECT_LE(fine.u, 2e-4);
+  EXPECT_LE(fine.B_xy, 2e-3);
+  EXPECT_GE(order(coarse.u, fine.u), 1.5);
+  EXPECT_LT(fine.B_xy, coarse.B_xy);
+}
+
 // The interface hardly moves here, 0.18 % of the walls; the layer at it is 0.05 thick.
 TEST(Slab, SoftAndViscous) {
   const auto [coarse, fine] = converge({soft}, 64, 128);
