@@ -25,7 +25,8 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
   const auto damped = [&](Index f, Real dt) {
-    const Real implicit = terms.theta * terms.mu[f] + (1 + 2 * terms.strained) * terms.kappa[f];
+    const Real implicit =
+        terms.theta * terms.mu[f] + terms.kappa[f] + 2 * terms.strained * terms.elastic[f];
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
@@ -162,10 +163,10 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
   }
 }
 
-// u* + grad q obeys the predictor, u^(n+1) does not: theta mu Lap grad q = grad(theta mu Lap q)
-// is left, with Lap q = div u*                                          [Brown01], [Timmermans96]
-// Where p alternates, the predicted flux answers as much as in the worst case dim times as it does
-// to a smooth p: chi must be less than 2 / dim.
+// u* = u^(n+1) + grad q obeys the predictor, u^(n+1) does not: theta mu Lap grad q = grad(theta mu
+// Lap q) is left, with Lap q = div u*                                          [Brown01],
+// [Timmermans96] Where p alternates, the predicted flux answers as much as in the worst case dim
+// times as it does to a smooth p: chi must be less than 2 / dim.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
                           const FaceField<Real>& kappa, Real theta, const Mesh& mesh) {
   constexpr Real chi = 0.5;

@@ -20,9 +20,10 @@ struct FluxTerms {
   const FaceField<Real>&
       balance;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
   const FaceField<Real>& mu;
-  const FaceField<Real>& kappa;  ///< implicit stand-in for elasticity; 0 outside the solid
+  const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
+  const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
   Real theta = 0.5, rho = 1, dt = 0;
-  Real strained = 0;  ///< dt G lambda_B / kappa where the flux strains the solid; 0: it does not
+  Real strained = 0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:

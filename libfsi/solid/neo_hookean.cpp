@@ -106,11 +106,13 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
     push_sharp(force, balance, solid, weights, stencil, band, grad);
   else
     push_mixed(force, balance, solid, weights, band, grad);
-  // What traces of alpha and rounding leave is no balance: the flux is limited where there is one.
+  mesh_.halo.update(force);
+}
+
+void clear_negligible(FaceField<Real>& balance, Real G, const Band& band) {
   constexpr Real negligible = 1e-9;
   for (const Index f : band.faces())
-    if (std::abs(balance[f]) < negligible * G_) balance[f] = 0;
-  mesh_.halo.update(force);
+    if (std::abs(balance[f]) < negligible * G) balance[f] = 0;
 }
 
 }  // namespace fsi::solid

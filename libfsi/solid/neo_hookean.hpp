@@ -28,11 +28,10 @@ class NeoHookean {
   /// the part that a jump of the pressure bears is differenced as the pressure is, by the weights
   /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
   /// At boundaries alpha B (with alpha_f: B) continues linearly.
-  /// balance_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f that of B
-  /// times alpha_f, and that of the level part. It vanishes for a linear stress and where it is
-  /// below 1e-9 G. Zero outside the
-  /// band of this and of the last call. force: owned and halo.
-  /// grad: scratch that nothing but the solid writes to, zero at first.
+  /// balance_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f that of the
+  /// cells' alpha times B, and that of the level part. It vanishes for a linear stress. Zero
+  /// outside the band of this and of the last call. force: owned and halo. grad: scratch that
+  /// nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
              const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
              CellField<SymGradient>& grad);
@@ -54,5 +53,9 @@ class NeoHookean {
   CellField<Vec3> level_;                       // sum_f g_cf s (alpha_n - alpha_c)
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
+
+/// A balance below 1e-9 G on the band's faces is none: traces of alpha and rounding leave it, and
+/// the face flux is limited where there is one.
+void clear_negligible(FaceField<Real>& balance, Real G, const Band& band);
 
 }  // namespace fsi::solid

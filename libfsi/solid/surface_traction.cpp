@@ -161,9 +161,11 @@ void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, con
     const SymTensor D = twice_symmetric(L);
     const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
     const Real s = excess * dot(Dm, m), mu_h = 1 / (a_f / mu_least_ + (1 - a_f) / mu_.fluid);
-    // (m . S) e with the difference along d, and m (e . S)
-    const Vec3 bend = along_surface(
-        weights.g[f] * (du - dot(L, along_surface(d, m))) + dot(m, S) * dot(transpose(L), m), m);
+    // (m . S) e with the difference along d, m . S = g m . d + m . k, and m (e . S)
+    const Vec3 bend =
+        along_surface(weights.g[f] * (du - dot(L, along_surface(d, m))) +
+                          dot(m, weights.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
+                      m);
     const Vec3 Bm = dot(G_ * ((1 - lambda) * surface.B[P] + lambda * surface.B[N]), m);
     const Vec3 lent = (mu_least_ - mu_.solid) * dot(side.own, m);
     const Real series = a_f * mu_h / mu_least_;
@@ -240,10 +242,11 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
 }
 
 void SurfaceTraction::stiffen(FaceField<Real>& kappa, const Band& band) const {
+  const Real share = mu_.solid > mu_.fluid ? 0.1 : 1;
   for (const Index f : band.faces()) {
     Real touched = touch_[mesh_.owner[f]];
     if (f < mesh_.n_internal) touched += touch_[mesh_.neighbour[f]];
-    if (touched > 0) kappa[f] += std::abs(mu_.solid - mu_.fluid);
+    if (touched > 0) kappa[f] += share * std::abs(mu_.solid - mu_.fluid);
   }
 }
 

@@ -60,8 +60,15 @@ class SurfaceTraction {
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
              const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
 
-  /// After apply: kappa_f += |mu_s - mu_f| at the faces of cells at the surface, an implicit
-  /// counterpart of the change of u in a step, which makes the explicit stress stable.
+  /// Viscosities of more than this many times the fluid's are left to the mean of the cells: a
+  /// stress of that size, taken explicitly, makes the strain rough.
+  static constexpr Real ratio_max = 50;
+
+  /// After apply: kappa_f += c |mu_s - mu_f| at the faces of cells at the surface, an implicit
+  /// counterpart of the change of u in a step, which makes the explicit stress stable; an error of
+  /// first order in dt. c = 1 where the fluid is the more viscous: with 0.1 a step much longer than
+  /// rho h^2 / mu_f grows. c = 0.1 where the solid is, whose own implicit term does most of that:
+  /// stable with none up to mu_s / mu_f = 10, not at 100.
   void stiffen(FaceField<Real>& kappa, const Band& band) const;
 
  private:

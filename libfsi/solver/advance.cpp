@@ -45,6 +45,14 @@ void Solver::hold_backup() {
   backup_.emplace(state, mesh_);
 }
 
+bool Solver::stuck(Real dt) {
+  constexpr Real tiny = 1e-6;  // of the largest step
+  constexpr int most = 100;    // such steps in a row; a single one may end at an event
+  dt_largest_ = std::max(dt_largest_, dt);
+  tiny_steps_ = dt < tiny * dt_largest_ ? tiny_steps_ + 1 : 0;
+  return tiny_steps_ > most;
+}
+
 Real Solver::advance(Real dt) {
   if (!backup_) hold_backup();
   backup_->keep();
@@ -59,6 +67,10 @@ Real Solver::advance(Real dt) {
     try {
       step(dt);
       reason = objection(dt);
+      if (reason.empty() && stuck(dt)) {
+        reason = "a hundred steps of a millionth of the largest, the flow has become too fast";
+        break;
+      }
       if (reason.empty()) {
         if (i > 0) dt_cap_ = dt, report_.held_back = true;
         return dt;
@@ -74,7 +86,7 @@ Real Solver::advance(Real dt) {
   }
   std::array<char, 96> where{};
   std::snprintf(where.data(), where.size(), "step %lld from t = %.6g failed down to dt = %.2g: ",
-                static_cast<long long>(state_.step + 1), state_.t, 2 * dt);
+                static_cast<long long>(state_.step + 1), state_.t, tiny_steps_ > 0 ? dt : 2 * dt);
   report_.failure = where.data() + reason;
   return 0;
 }

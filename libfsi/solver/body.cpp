@@ -67,7 +67,6 @@ void Body::weigh() {
   if (extended()) {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
     vof::face_normal(normal_f, alpha, interface, mesh, band.faces());
-    vof::cell_plane(normal, height, alpha, interface, mesh, band.cells());
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }

@@ -79,8 +79,8 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (weights_.skewed) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_,
-                              mu_,      kappa_,  1,    physics_.rho, 0};
+  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_, mu_,
+                              kappa_,   kappa_,  1,    physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
   projection_.project(state_.phi, q_, grad_q_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
@@ -103,7 +103,7 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
                                            ": move it or make it smaller");
   if (mu_varies()) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
-    if (body_->extended())
+    if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
       traction_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
   }
   mix_viscosity();
@@ -214,8 +214,9 @@ void Solver::stiffen(Real dt) {
                                 !map,
                                 body_->sided.has_value()};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
+  if (!traction_) return;
   stiff_.assign(kappa_);
-  if (traction_) traction_->stiffen(stiff_, body_->band);
+  traction_->stiffen(stiff_, body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -224,11 +225,15 @@ void Solver::set_elastic_force() {
                                  body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
-  if (traction_)
+  if (traction_) {
+    vof::cell_plane(body_->normal, body_->height, body_->alpha, body_->interface, mesh_,
+                    body_->band.cells());
     traction_->apply(force_, balance_,
                      {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
                       body_->normal, body_->height, mu_},
                      weights_, projection_.stencil(), body_->band);
+  }
+  solid::clear_negligible(balance_, physics_.G, body_->band);
   if (body_force_)
     body_force_->apply(force_, balance_, body_->alpha_f, weights_, projection_.stencil(),
                        body_->band);
@@ -239,17 +244,17 @@ void Solver::predict_momentum(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
-      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, stiff_, mu_varies(),
-                        stiff(), {force_, body}, dt);
+      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, implicit(),
+                        mu_varies(), stiff(), {force_, body}, dt);
 }
 
 void Solver::predict_flux(Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Real strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0;
-  const flow::FluxTerms terms{state_.p,     grad_p_, p_b_,    L_,
-                              balance_,     mu_,     stiff_,  momentum_.theta_at(dt),
-                              physics_.rho, dt,      strained};
+  const flow::FluxTerms terms{
+      state_.p,     grad_p_, p_b_,    L_, balance_, mu_, implicit(), kappa_, momentum_.theta_at(dt),
+      physics_.rho, dt,      strained};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 

@@ -142,11 +142,15 @@ class Solver {
   void hold_mean_velocity(Real dt);
   void check();
   std::string objection(Real dt) const;
+  /// Counts steps so short that the run will not end; whether there were too many in a row.
+  bool stuck(Real dt);
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   /// Whether the momentum equation needs the velocity gradient everywhere.
   bool needs_L() const {
     return weights_.skewed || weights_.non_orthogonal || mu_varies() || (body_ && body_->sided);
   }
+  /// What the momentum equation takes implicitly besides the viscosity.
+  const FaceField<Real>& implicit() const { return traction_ ? stiff_ : kappa_; }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
   void hold_backup();
@@ -179,6 +183,8 @@ class Solver {
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
+  Real dt_largest_ = 0;                             // of this run
+  int tiny_steps_ = 0;                              // in a row
   Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;
   Profile profile_;

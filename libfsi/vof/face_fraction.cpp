@@ -68,16 +68,20 @@ void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellFiel
     normal[c] = p.area > 0 ? p.n_hat : Vec3{};
     height[c] = p.area > 0 ? dot(p.n_hat, mesh.C[c] - p.centre) : 0;
     if (p.area > 0) continue;
-    Vec3 sum;
+    Vec3 sum, on_surface;
+    int faces = 0;
     for (const Index f : mesh.cell_faces[c]) {
       if (f >= mesh.n_internal) continue;
       const bool owner = mesh.owner[f] == c;
       const Index n = owner ? mesh.neighbour[f] : mesh.owner[f];
       if (interface.piece[n].area > 0 || !(std::abs(alpha[n] - alpha[c]) > 0.5)) continue;
       sum += (owner == (alpha[c] > alpha[n]) ? 1 : -1) * mesh.Sf[f];
-      height[c] = (alpha[c] > alpha[n] ? -1 : 1) * norm(mesh.Cf[f] - mesh.C[c]);
+      on_surface += mesh.face_centre(f, c);
+      ++faces;
     }
-    if (norm2(sum) > 0) normal[c] = sum / norm(sum);
+    if (norm2(sum) == 0) continue;
+    normal[c] = sum / norm(sum);
+    height[c] = dot(normal[c], mesh.C[c] - on_surface / faces);
   }
 }
 
@@ -94,12 +98,17 @@ void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const In
                  const Mesh& mesh, std::span<const Index> faces) {
   for (const Index f : faces) {
     if (f >= mesh.n_internal) continue;
-    const Vec3 sum =
-        interface.piece[mesh.owner[f]].n_hat + interface.piece[mesh.neighbour[f]].n_hat;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Piece &p = interface.piece[P], &q = interface.piece[N];
+    if (!(p.area > 0) && !(q.area > 0)) {
+      const Real out = alpha[P] > alpha[N] ? 1 : -1;
+      normal[f] = alpha[P] == alpha[N] ? Vec3{} : (out / norm(mesh.Sf[f])) * mesh.Sf[f];
+      continue;
+    }
+    constexpr Real opposed = 0.1;
+    const Vec3 sum = p.n_hat + q.n_hat;
     const Real size = norm(sum);
-    const bool between = size == 0 && alpha[mesh.owner[f]] != alpha[mesh.neighbour[f]];
-    const Real out = alpha[mesh.owner[f]] > alpha[mesh.neighbour[f]] ? 1 : -1;
-    normal[f] = between ? (out / norm(mesh.Sf[f])) * mesh.Sf[f] : size > 1e-6 ? sum / size : Vec3{};
+    normal[f] = size > opposed ? sum / size : Vec3{};
   }
 }
 

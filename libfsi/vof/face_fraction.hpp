@@ -24,7 +24,7 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    std::span<const Index> faces);
 
 /// Where the surface runs in a cell, or between it and a neighbour: its normal out of the solid and
-/// the height of the cell's centre above it; zero elsewhere.
+/// the height of the cell's centre above it; zero elsewhere. Sets the listed cells.
 void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,
                 const Interface& interface, const Mesh& mesh, std::span<const Index> cells);
 
@@ -32,7 +32,8 @@ void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellFiel
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
 /// Unit normal out of the solid at the listed internal faces, between those of the planes of the
-/// two cells. Without planes: that of the face where the surface lies in it, zero elsewhere.
+/// two cells; zero between opposed ones. Without planes: that of the face where the surface lies in
+/// it, zero elsewhere.
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
                  const Mesh& mesh, std::span<const Index> faces);
 

@@ -28,8 +28,8 @@ TEST(Flux, StrainsNoMoreOffThanThereIs) {
     kappa.fill(0.3 * dt * G);
     const auto taken_off = [&](Real strained) {
       flow::predict_flux(phi, u, u_b, open,
-                         {p, grad_p, p_b, L, balance, mu, kappa, 0.5, 1, dt, strained}, weights,
-                         mesh);
+                         {p, grad_p, p_b, L, balance, mu, kappa, kappa, 0.5, 1, dt, strained},
+                         weights, mesh);
       const Real in = phi[0] / norm(mesh.Sf[0]);  // as much enters on the other side
       return G * 2 * (2 * in / d) * dt / s;
     };

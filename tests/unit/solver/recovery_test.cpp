@@ -280,5 +280,19 @@ TEST(Recovery, GivesUpOnACrushedSolid) {
   expect_failure(run, 1e-3, "the smallest eigenvalue of B fell below 1e-4");
 }
 
+// Limits that shrink with the flow's speed let a run that blows up go on for ever without coming
+// on.
+TEST(Recovery, EndsARunWhoseStepsBecomeTiny) {
+  const Scene scene;
+  const Mesh mesh = mesh_of(scene);
+  Trial trial(mesh, scene);
+  trial.steps(1, 1e-3);
+  trial.steps(100, 1e-10);
+  trial.steps(1, 1e-3);  // as after an event
+  trial.steps(100, 1e-10);
+  EXPECT_EQ(trial.solver.advance(1e-10), 0);
+  EXPECT_NE(trial.solver.report().failure.find("too fast"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace fsi

@@ -15,12 +15,16 @@ namespace fsi {
 namespace {
 
 /// Largest viscous force of u = (k x + g (y - y_0), -k (y - y_0)), mu g one on both sides of the
-/// surface y_0, less that which the jump of the pressure bears; two cells from the sides.
-Real left_over(Real y_0, const solid::Viscosities& mu, Real k) {
-  const Mesh mesh = test::read_box({.n = {8, 10, 0}, .length = {1.6, 2, 1}, .periodic = {}});
+/// surface y_0, less that which the jump of the pressure bears; two cells from the sides. The rows
+/// of cells wave up and down by that height.
+Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
+  const Mesh mesh =
+      test::read_box({.n = {8, 10, 0}, .length = {1.6, 2, 1}, .moved = [wave](const Vec3& x) {
+                        return x + Vec3{0, wave * x.y * (2 - x.y) * std::sin(4 * x.x), 0};
+                      }});
   const FaceWeights weights(mesh);
-  const Body body(mesh, weights, shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), 0,
-                  KinematicsKind::log_conformation);
+  Body body(mesh, weights, shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), 0,
+            KinematicsKind::log_conformation);
   const auto velocity = [&](const Vec3& x) {
     const Real y = x.y - y_0;
     return Vec3{k * x.x + y / (y < 0 ? mu.solid : mu.fluid), -k * y, 0};
@@ -38,6 +42,7 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k) {
   const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
   flow::viscous_compact(visc, mu_f, u, u_b, open, weights, mesh);
   flow::viscous_rest(visc, mu_f, mu.fluid, L, open, weights, mesh);
+  vof::cell_plane(body.normal, body.height, body.alpha, body.interface, mesh, body.band.cells());
   solid::SurfaceTraction traction(mesh, 0, mu);
   traction.apply(
       force, balance,
@@ -66,6 +71,14 @@ TEST(SurfaceTraction, ALinearVelocityWithAKinkLeavesNoForce) {
       // as level as the planes of the reconstruction
       EXPECT_LT(left_over(1.07, mu, k), 2e-3 * size) << "strain " << k << ", elsewhere";
     }
+}
+
+// Faces that the line between the centres passes at an angle: without its part of the difference
+// along d 0.43 and 0.80, what is left is of the planes and the gradients, in proportion to the
+// wave.
+TEST(SurfaceTraction, KnowsObliqueCells) {
+  EXPECT_LT(left_over(1, {5, 1}, 0, 0.02), 0.25);
+  EXPECT_LT(left_over(1, {5, 1}, 0, 0.04), 0.42);
 }
 
 }  // namespace

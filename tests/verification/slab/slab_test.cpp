@@ -222,8 +222,10 @@ Setup two(Real mu_s) { return {.layers = {.G = 5, .mu_f = 1, .mu_s = mu_s}, .sho
 TEST(Slab, TwoViscosities) {
   for (const Real mu_s : {0.0, 0.2, 5.0}) {
     const auto [coarse, fine] = converge(two(mu_s), 16, 32);
-    EXPECT_LE(fine.u, 0.01 * std::abs(Exact(two(mu_s).layers).amplitude(0.5)));
-    EXPECT_GE(order(coarse.u, fine.u), mu_s > 0 ? 1.9 : 1.7);
+    const Real amplitude = std::abs(Exact(two(mu_s).layers).amplitude(0.5));
+    EXPECT_LE(fine.u, (mu_s > 1 ? 2e-4 : 0.01) * amplitude);
+    // With 5 u is within 4e-4 at 16 already.
+    EXPECT_GE(order(coarse.u, fine.u), mu_s > 1 ? 1.2 : mu_s > 0 ? 1.9 : 1.7);
     EXPECT_GE(order(coarse.B_xy, fine.B_xy), mu_s > 0 ? 1.9 : 1.7);
   }
 }
