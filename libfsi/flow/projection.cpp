@@ -164,16 +164,21 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
 }
 
 // u* = u^(n+1) + grad q obeys the predictor, u^(n+1) does not: theta mu Lap grad q = grad(theta mu
-// Lap q) is left, with Lap q = div u*                                          [Brown01],
-// [Timmermans96] Where p alternates, the predicted flux answers as much as in the worst case dim
-// times as it does to a smooth p: chi must be less than 2 / dim.
+// Lap q) is left, with Lap q = div u*                                  [Brown01], [Timmermans96]
+//
+// A p that differs from all neighbours' is answered by the predicted flux K = sum_f g |d|^2 / (2 V)
+// times as much as chi mu_c div u* makes of it, dim on quads and hexes: chi K must be less than 2.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, Real theta, const Mesh& mesh) {
-  constexpr Real chi = 0.5;
+                          const FaceField<Real>& kappa, Real theta, const FaceWeights& weights,
+                          const Mesh& mesh) {
+  constexpr Real chi_max = 0.5, answer_max = 1.5;
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    Real nu = std::numeric_limits<Real>::max();
-    for (const Index f : mesh.cell_faces[c]) nu = std::min(nu, theta * mu[f] + kappa[f]);
-    p[c] -= chi * nu * div[c];
+    Real mu_c = std::numeric_limits<Real>::max(), K = 0;
+    for (const Index f : mesh.cell_faces[c]) {
+      mu_c = std::min(mu_c, theta * mu[f] + kappa[f]);
+      K += weights.g[f] * norm2(mesh.d[f]) / (2 * mesh.V[c]);
+    }
+    p[c] -= std::min(chi_max, answer_max / K) * mu_c * div[c];
   }
   mesh.halo.update(p);
 }

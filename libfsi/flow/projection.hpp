@@ -77,11 +77,12 @@ class Projection {
 /// div_c = sum_f phi_f / V of owned cells.
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);
 
-/// p_c -= chi nu_c div u*, nu_c the least theta mu + kappa of the cell's faces: what the
-/// implicit viscous term makes of the correction grad q. div: of the predicted flux, owned. p:
-/// owned and halo.
+/// p_c -= chi mu_c div u*, mu_c the least theta mu + kappa of the cell's faces: what the implicit
+/// viscous term makes of the correction grad q. chi = 1/2, less in cells of poor shape. div: of the
+/// predicted flux, owned. p: owned and halo.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, Real theta, const Mesh& mesh);
+                          const FaceField<Real>& kappa, Real theta, const FaceWeights& weights,
+                          const Mesh& mesh);
 
 /// max over owned cells of all ranks of |sum_f phi_f| / V.
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);

@@ -268,7 +268,8 @@ void Solver::project(Real dt) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
   }
-  flow::add_viscous_pressure(state_.p, divergence_, mu_, kappa_, momentum_.theta_at(dt), mesh_);
+  flow::add_viscous_pressure(state_.p, divergence_, mu_, kappa_, momentum_.theta_at(dt), weights_,
+                             mesh_);
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;
 }
