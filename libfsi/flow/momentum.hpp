@@ -68,11 +68,13 @@ class Momentum {
   Real dt_old = 0;
   std::int64_t steps_taken = 0;
   Real theta = 0.5;  ///< after the first steps, at least
-  /// The theta of a step of dt: more than `theta` on non-orthogonal meshes where viscosity smooths
-  /// a cell within the step, since the explicit rest would make it unstable. From 1/2 where
+  /// The theta of a step of dt: more than `theta` where viscosity smooths a cell within the step
+  /// and there is an explicit rest, on non-orthogonal meshes and after `expect`: it would make it
+  /// unstable. From 1/2 where
   /// l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
   Real theta_at(Real dt) const;
-  /// Collective. There is an explicit viscous rest, of a viscosity up to mu_max.
+  /// Collective. There is an explicit viscous rest on any mesh, of a viscosity up to mu_max: raises
+  /// theta_at and extrapolates less of it.
   void expect(Real mu_max);
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "libfsi/solid/level.hpp"
+
 namespace fsi::solid {
 
 NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), level_(mesh) {}
@@ -83,13 +85,7 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
     balance[f] = jump + dot(n, dot(G_ * dev(smooth), n));
   }
   mesh_.halo.update(level_, band.listed());
-  for (const Index c : band.cells()) force[c] += level_[c];
-  for (const Index f : band.faces()) {
-    if (f >= mesh_.n_internal) continue;
-    const Real lambda = weights.lambda[f];
-    balance[f] -= dot((1 - lambda) * level_[mesh_.owner[f]] + lambda * level_[mesh_.neighbour[f]],
-                      mesh_.d[f]);
-  }
+  add_level(force, balance, level_, weights, mesh_, band);
 }
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,

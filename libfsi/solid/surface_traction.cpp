@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/level.hpp"
 #include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
@@ -231,13 +232,7 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   push(force, balance, surface, weights, stencil, band);
   push_transposed(force, surface, weights, band);
   mesh_.halo.update(level_);
-  for (const Index c : band.cells()) force[c] += level_[c];
-  for (const Index f : band.faces()) {
-    if (f >= mesh_.n_internal) continue;
-    const Real lambda = weights.lambda[f];
-    balance[f] -= dot((1 - lambda) * level_[mesh_.owner[f]] + lambda * level_[mesh_.neighbour[f]],
-                      mesh_.d[f]);
-  }
+  add_level(force, balance, level_, weights, mesh_, band);
   mesh_.halo.update(force);
 }
 
