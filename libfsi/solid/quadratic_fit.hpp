@@ -38,9 +38,15 @@ class QuadraticFit {
     add({0, 1, 0, 0, s.y, 0, s.x, 0, s.z}, size_ * y, 1);
     add({0, 0, 1, 0, 0, s.z, 0, s.x, s.y}, size_ * z, 1);
   }
-  /// L, or nothing where too little was added or it lies too much in a line. Once.
+  /// L, or nothing where the fit does not tell it: where independent errors e |r_k| / size of the
+  /// u_k and e / size of the L_k make one of more than sqrt(20) e / size. With five values for five
+  /// unknowns it can be 40, and a viscous flux that takes such an L grows from step to step. Once.
   std::optional<Tensor> gradient() {
-    if (!solve()) return {};
+    constexpr Real variance_max = 20;
+    if (!factorise()) return {};
+    for (int i = 0; i < dim_; ++i)
+      if (!(variance(i) <= variance_max)) return {};
+    solve();
     const auto column = [&](int i) { return (1 / size_) * b_[i]; };
     const Vec3 x = column(0), y = column(1), z = dim_ == 3 ? column(2) : Vec3{};
     return Tensor{x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
@@ -55,9 +61,9 @@ class QuadraticFit {
       b_[i] += (w * row[i]) * rhs;
     }
   }
-  /// A = R^T D R in place, R with a unit diagonal [GolubVanLoan13] 4.1; then b <- A^-1 b.
-  bool solve() {
-    constexpr Real flat = 1e-3;  // part of a diagonal entry that counts as nothing left
+  /// A = R^T D R in place, R with a unit diagonal [GolubVanLoan13] 4.1; whether A is positive.
+  bool factorise() {
+    constexpr Real flat = 1e-9;  // part of a diagonal entry that counts as nothing left
     for (int i = 0; i < n_; ++i) {
       const Real whole = A_[i][i];
       for (int k = 0; k < i; ++k) A_[i][i] -= A_[k][i] * A_[k][i] * A_[k][k];
@@ -66,13 +72,29 @@ class QuadraticFit {
         for (int k = 0; k < i; ++k) A_[i][j] -= A_[k][i] * A_[k][j] * A_[k][k];
         A_[i][j] /= A_[i][i];
       }
+    }
+    return true;
+  }
+  /// (A^-1)_ii = |D^(-1/2) R^-T e_i|^2.
+  Real variance(int i) const {
+    std::array<Real, 9> x{};
+    Real sum = 0;
+    for (int j = i; j < n_; ++j) {
+      x[j] = i == j ? 1 : 0;
+      for (int k = i; k < j; ++k) x[j] -= A_[k][j] * x[k];
+      sum += x[j] * x[j] / A_[j][j];
+    }
+    return sum;
+  }
+  /// b <- A^-1 b.
+  void solve() {
+    for (int i = 0; i < n_; ++i) {
       for (int k = 0; k < i; ++k) b_[i] += -A_[k][i] * b_[k];
     }
     for (int i = n_ - 1; i >= 0; --i) {
       b_[i] *= 1 / A_[i][i];
       for (int k = i + 1; k < n_; ++k) b_[i] += -A_[i][k] * b_[k];
     }
-    return true;
   }
 
   int dim_, n_;

@@ -47,14 +47,14 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
     const Real kinked = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
     const Real w = solid.kink ? kinked : weights.lambda[f];
+    // less mu_s, as the solid's own compact viscous term does its part
     if (solid.sided) {
-      e *= 2;
+      e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});
       kappa[f] += std::max(e / explicit_part - kappa[f] - inertia, Real{0});
     } else if (simplex_) {
       e *= 2;
       kappa[f] += e;
     } else {
-      // what the solid's own compact viscous term leaves to do
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0},
                      explicit_part * (kappa[f] + inertia));
     }

@@ -43,10 +43,10 @@ struct Stiffening {
 /// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
 /// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,
 /// and so at most 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has
-/// more such modes, need 2 |d| (rho G alpha lambda_B)^(1/2) whatever mu_s is and all of it. With L
-/// from the cell's own side (sided) kappa grows by what makes all of e stable, i = e / 1.5 -
-/// kappa - rho |d|^2 / (8 dt) where that is positive, otherwise u* stands in place of the first
-/// u^n. Either costs an error of first order in dt. Without `kink` the mean is that of the face.
+/// more such modes, need twice the root and all of it. With L from the cell's own side (sided)
+/// kappa grows by what makes all of e stable, i = e / 1.5 - kappa - rho |d|^2 / (8 dt) where that
+/// is positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n. Either costs an
+/// error of first order in dt. Without `kink` the mean is that of the face.
 class Stiffness {
  public:
   /// Collective.
