@@ -6,6 +6,11 @@
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi::flow {
+namespace {
+
+constexpr int damped_steps = 2;  // the first, with theta = 1
+
+}  // namespace
 
 void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
                        const FaceWeights& weights, const Mesh& mesh) {
@@ -146,6 +151,22 @@ void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa,
   assembled_ = {theta_now, dt};
 }
 
+void Momentum::hold_past() { past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)); }
+
+void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                           const FaceField<Real>& mu, Real theta_now, Real dt) {
+  if (!past_ || steps_taken < damped_steps) {
+    viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
+  } else {
+    const Real back = (theta_now - 0.5) * dt / dt_old;
+    for (Index c = 0; c < mesh_.n_cells; ++c) past_->u[c] = u[c] - back * (u[c] - past_->u[c]);
+    for (Index b = 0; b < mesh_.n_boundary(); ++b)
+      past_->u_b[b] = u_b[b] - back * (u_b[b] - past_->u_b[b]);
+    viscous_compact(rhs_, mu, past_->u, past_->u_b, open_face_, weights_, mesh_);
+  }
+  if (past_) past_->u.assign(u), past_->u_b.assign(u_b);
+}
+
 void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
                        const CellField<Vec3>& grad_p, const FaceField<Real>& mu,
                        const FaceField<Real>& kappa, const Sources& sources, Real theta_now,
@@ -168,7 +189,6 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                       const CellField<Tensor>& L, const FaceField<Real>& phi,
                       const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
                       bool stiff, const Sources& sources, Real dt) {
-  constexpr int damped_steps = 2;
   const Real theta_now = steps_taken < damped_steps ? 1.0 : theta_at(dt);
   if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
     assemble(mu, kappa, theta_now, dt);
@@ -182,7 +202,7 @@ int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
     now_[c] = share * rhs_[c] - rho_ * now_[c];
     rhs_[c] *= 1 - share;
   }
-  viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
+  add_compact(u, u_b, mu, theta_now, dt);
   set_rhs(u_b, u_b_new, grad_p, mu, kappa, sources, theta_now, dt);
 
   const Index dim = mesh_.dim;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
@@ -47,7 +48,10 @@ struct Sources {
 ///   rho V w / dt - sum_f (theta mu + kappa) g (w_N - w_P)
 ///     = -rho AB(conv) + visc(u^n) + AB(rest) + V (-grad p^n + f + S).
 /// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start
-/// leaves.
+/// leaves. With `hold_past` visc acts on u^n - (theta - 1/2) (dt / dt_old) (u^n - u^(n-1)) after
+/// these, which makes up for theta to second order: rho u_t = -l u, z the factor of a step,
+///   (1 + theta l) z^2 - (1 + (2 theta - 3/2) l) z + (theta - 1/2) l = 0,  here l for l dt / rho:
+/// with theta = 1 |z| falls to 2^(-1/2) as l grows, and an explicit rest of up to l is stable.
 class Momentum {
  public:
   Momentum(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
@@ -76,10 +80,21 @@ class Momentum {
   /// Collective. There is an explicit viscous rest on any mesh, of a viscosity up to mu_max: raises
   /// theta_at and extrapolates less of it.
   void expect(Real mu_max);
+  /// The velocity before the last step, and at the boundary: part of a checkpoint.
+  struct Past {
+    CellField<Vec3> u;
+    BoundaryField<Vec3> u_b;
+  };
+  /// Before the first step: of second order in time whatever theta is.
+  void hold_past();
+  /// Empty without hold_past.
+  std::optional<Past>& past() { return past_; }
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 
  private:
+  void add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                   const FaceField<Real>& mu, Real theta_now, Real dt);
   void assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now, Real dt);
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
   Real extrapolated(Real dt) const;
@@ -95,6 +110,7 @@ class Momentum {
   std::vector<Vec3>
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   CellField<Vec3> history_, now_, rhs_;
+  std::optional<Past> past_;
   std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]
   VectorSystem system_;
   std::array<Real, 2> assembled_{0, 0};  // theta and dt of the matrix in place

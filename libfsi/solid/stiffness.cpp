@@ -8,6 +8,15 @@
 #include "libfsi/solid/sided_gradient.hpp"
 
 namespace fsi::solid {
+namespace {
+
+/// sin^2 of the angle between d and the normal m; 1 without one.
+Real part_along(const Vec3& m, const Vec3& d) {
+  const Real across = dot(m, d);
+  return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
+}
+
+}  // namespace
 
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
                   std::span<const Index> cells) {
@@ -55,6 +64,7 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
       e *= 2;
       kappa[f] += e;
     } else {
+      if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0},
                      explicit_part * (kappa[f] + inertia));
     }

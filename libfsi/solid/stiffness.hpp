@@ -24,6 +24,8 @@ struct Stiffening {
   Real G, rho, mu_s, dt;
   bool kink = false;   ///< the mean of L allows for a kink of u at the surface
   bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
+  /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.
+  const CellField<Vec3>* normal = nullptr;
 };
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
@@ -38,7 +40,10 @@ struct Stiffening {
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
-/// far as the solid's own viscosity, whose compact term does the same, does not. The mean is
+/// far as the solid's own viscosity, whose compact term does the same, does not. At a
+/// surface between two viscosities (normal) the part of it along the surface alone is left, e
+/// sin^2 of the angle between d and the normal: across it the mean is off by a part of the kink of
+/// u, a stress of first order, and the viscous stress in series damps instead. The mean is
 /// (L_P + L_N) / 2, exact for a quadratic velocity, at the surface, where u has a kink,
 /// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
 /// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,

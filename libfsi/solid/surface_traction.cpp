@@ -236,12 +236,16 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   mesh_.halo.update(force);
 }
 
-void SurfaceTraction::stiffen(FaceField<Real>& kappa, const Band& band) const {
-  const Real share = mu_.solid > mu_.fluid ? 0.1 : 1;
+void SurfaceTraction::stiffen(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
+                              const Band& band) const {
+  if (mu_.solid > mu_.fluid) return;
   for (const Index f : band.faces()) {
     Real touched = touch_[mesh_.owner[f]];
     if (f < mesh_.n_internal) touched += touch_[mesh_.neighbour[f]];
-    if (touched > 0) kappa[f] += share * std::abs(mu_.solid - mu_.fluid);
+    if (touched == 0) continue;
+    // mu_h / mu_s of the traction in series
+    const Real weight = 1 / (alpha_f[f] + (1 - alpha_f[f]) * mu_least_ / mu_.fluid);
+    kappa[f] = kappa[f] * weight + mu_.fluid - mu_.solid;
   }
 }
 

@@ -64,12 +64,16 @@ class SurfaceTraction {
   /// stress of that size, taken explicitly, makes the strain rough.
   static constexpr Real ratio_max = 50;
 
-  /// After apply: kappa_f += c |mu_s - mu_f| at the faces of cells at the surface, an implicit
-  /// counterpart of the change of u in a step, which makes the explicit stress stable; an error of
-  /// first order in dt. c = 1 where the fluid is the more viscous: with 0.1 a step much longer than
-  /// rho h^2 / mu_f grows. c = 0.1 where the solid is, whose own implicit term does most of that:
-  /// stable with none up to mu_s / mu_f = 10, not at 100.
-  void stiffen(FaceField<Real>& kappa, const Band& band) const;
+  /// After apply: what makes the explicit stress stable at the faces of cells at the surface where
+  /// the fluid is the more viscous; nothing where the solid is, whose own implicit term does it.
+  ///
+  ///   kappa_f <- kappa_f mu_h / mu_s + c (mu_f - mu_s),   c = 1
+  ///
+  /// kappa_f has alpha_f, the elastic stress alpha_f mu_h / mu_s. The second is on the change of u
+  /// in a step, an error of dt in the stress of these faces alone: of second order in u if dt ~ h.
+  /// With c = 0.2 an inclusion of mu_s / mu_f = 1e-4 in Stokes flow grows, with 0.3 it does not;
+  /// with 0.5 the slab whose surface lies in mid-cell is the rougher.
+  void stiffen(FaceField<Real>& kappa, const FaceField<Real>& alpha_f, const Band& band) const;
 
  private:
   void clear(const Band& band);

@@ -105,6 +105,7 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
       traction_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+    if (traction_) momentum_.hold_past();
   }
   mix_viscosity();
   hold_backup();
@@ -212,11 +213,12 @@ void Solver::stiffen(Real dt) {
                                 map ? 0 : physics_.mu_s,
                                 dt,
                                 !map,
-                                body_->sided.has_value()};
+                                body_->sided.has_value(),
+                                traction_ ? &body_->normal : nullptr};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
   if (!traction_) return;
   stiff_.assign(kappa_);
-  traction_->stiffen(stiff_, body_->band);
+  traction_->stiffen(stiff_, body_->alpha_f, body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -228,6 +230,7 @@ void Solver::set_elastic_force() {
   if (traction_) {
     vof::cell_plane(body_->normal, body_->height, body_->alpha, body_->interface, mesh_,
                     body_->band.cells());
+    mesh_.halo.update(body_->normal);
     traction_->apply(force_, balance_,
                      {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
                       body_->normal, body_->height, mu_},

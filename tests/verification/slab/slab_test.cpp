@@ -206,8 +206,10 @@ TEST(Slab, SoftAndViscous) {
 // [Sugiyama11]: an inviscid slab.
 TEST(Slab, InviscidSolid) {
   const auto [coarse, fine] = converge({elastic}, 32, 64);
-  EXPECT_LE(fine.u, 0.003 * std::abs(Exact(elastic).amplitude(0.5)));
-  EXPECT_LT(fine.u, coarse.u);
+  EXPECT_LE(fine.u, 0.0012 * std::abs(Exact(elastic).amplitude(0.5)));
+  EXPECT_LE(fine.B_xy, 1.2e-3);
+  EXPECT_GE(order(coarse.u, fine.u), 1.8);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
 }
 
 TEST(Slab, InviscidSolidInMidCell) {
@@ -216,23 +218,35 @@ TEST(Slab, InviscidSolidInMidCell) {
   EXPECT_LT(fine.u, coarse.u);
 }
 
-// Backward Euler where the viscosities differ: steps in proportion to the cells squared.
-Setup two(Real mu_s) { return {.layers = {.G = 5, .mu_f = 1, .mu_s = mu_s}, .shorter = 4}; }
+/// Steps in proportion to the cells (shorter 2) or to the cells squared (4).
+Setup two(Real mu_s, int shorter) {
+  return {.layers = {.G = 5, .mu_f = 1, .mu_s = mu_s}, .shorter = shorter};
+}
 
 TEST(Slab, TwoViscosities) {
+  for (const Real mu_s : {0.2, 5.0}) {
+    const auto [coarse, fine] = converge(two(mu_s, 2), 32, 64);
+    const Real amplitude = std::abs(Exact(two(mu_s, 2).layers).amplitude(0.5));
+    EXPECT_LE(fine.u, (mu_s > 1 ? 2e-4 : 0.001) * amplitude);
+    EXPECT_GE(order(coarse.u, fine.u), 1.8);
+    EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
+  }
+}
+
+TEST(Slab, TwoViscositiesShortSteps) {
   for (const Real mu_s : {0.0, 0.2, 5.0}) {
-    const auto [coarse, fine] = converge(two(mu_s), 16, 32);
-    const Real amplitude = std::abs(Exact(two(mu_s).layers).amplitude(0.5));
-    EXPECT_LE(fine.u, (mu_s > 1 ? 2e-4 : 0.01) * amplitude);
-    // With 5 u is within 4e-4 at 16 already.
-    EXPECT_GE(order(coarse.u, fine.u), mu_s > 1 ? 1.2 : mu_s > 0 ? 1.9 : 1.7);
-    EXPECT_GE(order(coarse.B_xy, fine.B_xy), mu_s > 0 ? 1.9 : 1.7);
+    const auto [coarse, fine] = converge(two(mu_s, 4), 16, 32);
+    const Real amplitude = std::abs(Exact(two(mu_s, 4).layers).amplitude(0.5));
+    // with 5 the error of the mesh; the step's had the other sign when it was of first order
+    EXPECT_LE(fine.u, (mu_s > 1 ? 2.6e-4 : 0.01) * amplitude);
+    EXPECT_GE(order(coarse.u, fine.u), 1.8);
+    EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.9);
   }
 }
 
 TEST(Slab, TwoViscositiesInMidCell) {
   for (const Real mu_s : {0.2, 5.0}) {
-    const auto [coarse, fine] = converge(two(mu_s), 17, 33);
+    const auto [coarse, fine] = converge(two(mu_s, 4), 17, 33);
     EXPECT_GE(order(coarse.u, fine.u), 1.4);
     EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.1);
   }
