@@ -155,7 +155,7 @@ void Momentum::hold_past() { past_.emplace(CellField<Vec3>(mesh_), BoundaryField
 
 void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                            const FaceField<Real>& mu, Real theta_now, Real dt) {
-  if (!past_ || steps_taken < damped_steps) {
+  if (!second_order || steps_taken < damped_steps) {
     viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
   } else {
     const Real back = (theta_now - 0.5) * dt / dt_old;
@@ -164,7 +164,7 @@ void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& 
       past_->u_b[b] = u_b[b] - back * (u_b[b] - past_->u_b[b]);
     viscous_compact(rhs_, mu, past_->u, past_->u_b, open_face_, weights_, mesh_);
   }
-  if (past_) past_->u.assign(u), past_->u_b.assign(u_b);
+  if (past_) past_->u.assign(u);
 }
 
 void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,

@@ -105,8 +105,9 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
       traction_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
-    if (traction_) momentum_.hold_past();
   }
+  momentum_.hold_past();
+  momentum_.second_order = traction_.has_value();
   mix_viscosity();
   hold_backup();
 }
@@ -245,6 +246,8 @@ void Solver::set_elastic_force() {
 void Solver::predict_momentum(Real dt) {
   const Profile::Call call(profile_, calls_.predict_momentum);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
+  if (auto& past = momentum_.past())
+    set_boundary_velocity(past->u_b, past->u, conditions_, state_.t - momentum_.dt_old, mesh_);
   const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
   report_.velocity_iterations =
       momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, implicit(),
