@@ -145,46 +145,58 @@ SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m, Real lambd
           (1 - lambda) * own_[P] + lambda * own_[N]};
 }
 
-void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
-                           const FaceWeights& weights, const GradientStencil& stencil,
-                           const Band& band) {
+SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface,
+                                                       const FaceWeights& weights) const {
+  const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
+  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  const Real lambda = weights.lambda[f], alpha_f = surface.alpha_f[f];
+  const Vec3 du = surface.u[N] - surface.u[P];
+  const Sides side = sides(f, m, lambda);
+  const Tensor L = side.L + alpha_f * outer(side.a, m);  // over the whole way between the centres
+  const SymTensor D = twice_symmetric(L);                // 2 D
+  const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
+  const Vec3 Bm = dot(G_ * ((1 - lambda) * surface.B[P] + lambda * surface.B[N]), m);
+  const Vec3 Gb = along_surface(Bm, m);
+  // (mu_least - mu_s) 2 D . m of the solid's own side, which mu_least has too much
+  const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
+  const Real excess = mu_.solid - mu_.fluid, s = excess * dot(Dm, m);
+  const Real mu_h = 1 / (alpha_f / mu_least_ + (1 - alpha_f) / mu_.fluid);
+  const Real series = alpha_f * mu_h / mu_least_;
+  // e (m . S): the difference along d is that of the face, m . S = g m . d + m . k
+  const Vec3 e_mS =
+      along_surface(weights.g[f] * (du - dot(L, along_surface(d, m))) +
+                        dot(m, weights.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
+                    m);
+  // (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
+  const Vec3 traction = (mu_h - mu_.fluid) * (e_mS + dot(e, S) * m) +
+                        (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
+  // + alpha_f ((mu_s - mu_f) 2 D^0 - s I)
+  const Vec3 rest = (alpha_f * excess) * (dot(D, S) - shear(e, m, S)) - (alpha_f * s) * S;
+  const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
+  return {traction + transposed + rest, s};
+}
+
+void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balance,
+                                 const Surface& surface, const FaceWeights& weights,
+                                 const GradientStencil& stencil, const Band& band) {
   const CellField<Real>& alpha = surface.alpha;
-  const Real excess = mu_.solid - mu_.fluid;
   for (const Index f : band.faces()) {
     if (!at_surface(surface, mesh_, f)) continue;
-    const Vec3 m = surface.normal_f[f];
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     if (fitted_[P] + fitted_[N] == 0) continue;
-    const Real lambda = weights.lambda[f], a_f = surface.alpha_f[f];
-    const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], du = surface.u[N] - surface.u[P];
-    const Sides side = sides(f, m, lambda);
-    const Tensor L = side.L + a_f * outer(side.a, m);
-    const SymTensor D = twice_symmetric(L);
-    const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
-    const Real s = excess * dot(Dm, m), mu_h = 1 / (a_f / mu_least_ + (1 - a_f) / mu_.fluid);
-    // (m . S) e with the difference along d, m . S = g m . d + m . k, and m (e . S)
-    const Vec3 bend =
-        along_surface(weights.g[f] * (du - dot(L, along_surface(d, m))) +
-                          dot(m, weights.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
-                      m);
-    const Vec3 Bm = dot(G_ * ((1 - lambda) * surface.B[P] + lambda * surface.B[N]), m);
-    const Vec3 lent = (mu_least_ - mu_.solid) * dot(side.own, m);
-    const Real series = a_f * mu_h / mu_least_;
-    const Vec3 traction = (mu_h - mu_.fluid) * (bend + dot(e, S) * m) +
-                          (series - a_f) * shear(along_surface(Bm, m), m, S) -
-                          series * shear(along_surface(lent, m), m, S);
-    const Vec3 level_part = (a_f * excess) * (dot(D, S) - shear(e, m, S)) - (a_f * s) * S;
-    // what the momentum equation has
-    const Tensor mean = (1 - lambda) * surface.L[P] + lambda * surface.L[N];
-    const Vec3 compact = weights.g[f] * du + dot(mean, weights.k[f]);
-    const Real mine = surface.mu[f] - mu_.fluid;
-    const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
-    const auto part = [&](Index c) {
-      return traction + transposed + level_part + (alpha[c] * s) * S -
-             mine * (compact + dot(transpose(surface.L[c]), S));
+    const FaceExcess at_face = excess_at(f, surface, weights);
+    const Real lambda = weights.lambda[f], s = at_face.s;
+    const Vec3 S = mesh_.Sf[f], du = surface.u[N] - surface.u[P];
+    // what the momentum equation has in its place: the mean viscosity
+    const Tensor L_mean = (1 - lambda) * surface.L[P] + lambda * surface.L[N];
+    const Vec3 along_S = weights.g[f] * du + dot(L_mean, weights.k[f]);
+    const Real mean_excess = surface.mu[f] - mu_.fluid;
+    const auto flux_of = [&](Index c) {
+      return at_face.flux + (alpha[c] * s) * S -
+             mean_excess * (along_S + dot(transpose(surface.L[c]), S));
     };
-    force[P] += (1 / mesh_.V[P]) * part(P);
-    force[N] -= (1 / mesh_.V[N]) * part(N);
+    force[P] += (1 / mesh_.V[P]) * flux_of(P);
+    force[N] -= (1 / mesh_.V[N]) * flux_of(N);
     const Real jump = s * (alpha[N] - alpha[P]);
     level_[P] += jump * stencil.owner[f];
     level_[N] -= jump * stencil.neighbour[f];
@@ -192,28 +204,28 @@ void SurfaceTraction::push(CellField<Vec3>& force, FaceField<Real>& balance, con
   }
 }
 
-void SurfaceTraction::push_transposed(CellField<Vec3>& force, const Surface& surface,
-                                      const FaceWeights& weights, const Band& band) const {
+void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surface,
+                                     const FaceWeights& weights, const Band& band) const {
   const Real excess = std::abs(mu_.solid - mu_.fluid);
   const bool in = mu_.solid > mu_.fluid;
   const auto L_of = [&](Index c) -> const Tensor& {
     return touch_[c] > 1 ? L_in_[c] : surface.L[c];
   };
   for (const Index c : band.cells()) {
-    const bool there = uncut(surface.alpha[c]);
-    if (!there && (in || surface.alpha[c] <= whole)) continue;
+    const bool more_viscous = uncut(surface.alpha[c]);
+    if (!more_viscous && (in || surface.alpha[c] <= whole)) continue;
     // what the momentum equation has in the solid, of |mu_s - mu_f|
-    const Tensor has = (in ? -1 : 1) * surface.L[c];
+    const Tensor in_place = (in ? -1 : 1) * surface.L[c];
     const Tensor none{};
     Vec3 sum;
     for (const Index f : mesh_.cell_faces[c]) {
       const Index P = mesh_.owner[f];
       const Real out = P == c ? 1 : -1;
       if (at_surface(surface, mesh_, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
-      Tensor L_f = there ? L_of(c) : none;
-      if (there && f < mesh_.n_internal)
+      Tensor L_f = more_viscous ? L_of(c) : none;
+      if (more_viscous && f < mesh_.n_internal)
         L_f = (1 - weights.lambda[f]) * L_of(P) + weights.lambda[f] * L_of(mesh_.neighbour[f]);
-      sum += out * dot(transpose(L_f + (there && !in ? none : has)), mesh_.Sf[f]);
+      sum += out * dot(transpose(L_f + (more_viscous && !in ? none : in_place)), mesh_.Sf[f]);
     }
     force[c] += (excess / mesh_.V[c]) * sum;
   }
@@ -229,8 +241,8 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
   take_own_strain(surface, band);
   mesh_.halo.update(L_in_);
-  push(force, balance, surface, weights, stencil, band);
-  push_transposed(force, surface, weights, band);
+  add_excess(force, balance, surface, weights, stencil, band);
+  add_transposed(force, surface, weights, band);
   mesh_.halo.update(level_);
   add_level(force, balance, level_, weights, mesh_, band);
   mesh_.halo.update(force);

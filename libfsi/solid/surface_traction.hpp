@@ -82,10 +82,16 @@ class SurfaceTraction {
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
-  void push(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
-            const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
-  void push_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
-                       const Band& band) const;
+  void add_excess(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+                  const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+  void add_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
+                      const Band& band) const;
+  /// The excess times S at a face but for alpha_c s I, over the lesser viscosity; and s.
+  struct FaceExcess {
+    Vec3 flux;
+    Real s;
+  };
+  FaceExcess excess_at(Index f, const Surface& surface, const FaceWeights& weights) const;
   /// Gradient along the surface, kink and the solid's own D at a face.
   struct Sides {
     Tensor L;
