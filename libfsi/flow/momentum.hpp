@@ -77,6 +77,8 @@ class Momentum {
   /// unstable. From 1/2 where
   /// l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
   Real theta_at(Real dt) const;
+  /// The theta of the last `predict`: 1 in the first steps, then theta_at; what goes with its u*.
+  Real theta_taken() const { return assembled_[0]; }
   /// Collective. There is an explicit viscous rest on any mesh, of a viscosity up to mu_max: raises
   /// theta_at and extrapolates less of it.
   void expect(Real mu_max);

@@ -71,8 +71,7 @@ class SurfaceTraction {
   ///
   /// kappa_f has alpha_f, the elastic stress alpha_f mu_h / mu_s. The second is on the change of u
   /// in a step, an error of dt in the stress of these faces alone: of second order in u if dt ~ h.
-  /// With c = 0.2 an inclusion of mu_s / mu_f = 1e-4 in Stokes flow grows, with 0.3 it does not;
-  /// with 0.5 the slab whose surface lies in mid-cell is the rougher.
+  /// With c = 0.2 an inclusion of mu_s / mu_f = 1e-4 in Stokes flow grows, with 0.3 it does not.
   void stiffen(FaceField<Real>& kappa, const FaceField<Real>& alpha_f, const Band& band) const;
 
  private:

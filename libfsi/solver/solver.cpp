@@ -258,9 +258,10 @@ void Solver::predict_flux(Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   const Real strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0;
-  const flow::FluxTerms terms{
-      state_.p,     grad_p_, p_b_,    L_, balance_, mu_, implicit(), kappa_, momentum_.theta_at(dt),
-      physics_.rho, dt,      strained};
+  const flow::FluxTerms terms{state_.p,     grad_p_,  p_b_,
+                              L_,           balance_, mu_,
+                              implicit(),   kappa_,   momentum_.theta_taken(),
+                              physics_.rho, dt,       strained};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
 }
 
@@ -274,7 +275,7 @@ void Solver::project(Real dt) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
   }
-  flow::add_viscous_pressure(state_.p, divergence_, mu_, kappa_, momentum_.theta_at(dt), weights_,
+  flow::add_viscous_pressure(state_.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
                              mesh_);
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;
