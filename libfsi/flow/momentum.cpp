@@ -155,7 +155,7 @@ void Momentum::hold_past() { past_.emplace(CellField<Vec3>(mesh_), BoundaryField
 
 void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                            const FaceField<Real>& mu, Real theta_now, Real dt) {
-  if (!second_order || steps_taken < damped_steps) {
+  if (!past_ || steps_taken < damped_steps) {
     viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
   } else {
     const Real back = (theta_now - 0.5) * dt / dt_old;

@@ -48,7 +48,7 @@ struct Sources {
 ///   rho V w / dt - sum_f (theta mu + kappa) g (w_N - w_P)
 ///     = -rho AB(conv) + visc(u^n) + AB(rest) + V (-grad p^n + f + S).
 /// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start
-/// leaves. With `second_order` visc acts on u^n - (theta - 1/2) (dt / dt_old) (u^n - u^(n-1)) after
+/// leaves. With `hold_past` visc acts on u^n - (theta - 1/2) (dt / dt_old) (u^n - u^(n-1)) after
 /// these, which makes up for theta to second order: rho u_t = -l u, z the factor of a step,
 ///   (1 + theta l) z^2 - (1 + (2 theta - 3/2) l) z + (theta - 1/2) l = 0,  here l for l dt / rho:
 /// with theta = 1 |z| falls to 2^(-1/2) as l grows, and an explicit rest of up to l is stable.
@@ -88,11 +88,10 @@ class Momentum {
     CellField<Vec3> u;
     BoundaryField<Vec3> u_b;
   };
-  /// Keeps it from now on, so that a run may become one of second_order.
+  /// Second order in time from now on, whatever theta is; before the first step.
   void hold_past();
   /// Empty without hold_past.
   std::optional<Past>& past() { return past_; }
-  bool second_order = false;  ///< in time whatever theta is; needs hold_past
   /// Faces without viscous flux: those of openings.
   const std::vector<char>& open_face() const { return open_face_; }
 

@@ -212,7 +212,8 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
     bool good = true;
     if (source) {
       all.resize(static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width));
-      good = source->dataset("/fields/" + f.name, all);
+      good = source->dataset("/fields/" + f.name, all) ||
+             (!f.instead.empty() && source->dataset("/fields/" + f.instead, all));
     }
     agree(good ? "" : "holds no field \"" + f.name + "\" of this size");
     layout(f.on).scatter(all, f.width, f.values);

@@ -24,15 +24,17 @@ class Snapshot {
     On on;
     int width;
     Real* values;
+    std::string instead;
   };
 
   /// identity: what else than the mesh must be the same to go on from a checkpoint (the driver, the
   /// kind of kinematics); "key=value" items that are compared as one text.
   explicit Snapshot(std::string identity = "") : identity_(std::move(identity)) {}
 
+  /// instead: what to read where a checkpoint has no field of that name; "": it is refused.
   template <class T, On on>
-  void add(const std::string& name, Field<T, on>& field) {
-    fields_.push_back({name, on, components<T>, reinterpret_cast<Real*>(field.data())});
+  void add(const std::string& name, Field<T, on>& field, const std::string& instead = "") {
+    fields_.push_back({name, on, components<T>, reinterpret_cast<Real*>(field.data()), instead});
   }
   void add(const std::string& name, Scalar scalar) { scalars_.emplace_back(name, scalar); }
 

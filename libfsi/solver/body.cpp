@@ -21,8 +21,6 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       B(mesh),
       alpha_f(mesh),
       normal_f(mesh),
-      normal(mesh),
-      height(mesh),
       lambda(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),

@@ -74,9 +74,6 @@ struct Body {
   CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
   FaceField<Real> alpha_f;   ///< part of solid at the band's faces
   FaceField<Vec3> normal_f;  ///< of the interface there, zero away from it; where B is extended
-  CellField<Vec3>
-      normal;  ///< of the surface in a cell, out of the solid; set where viscosities differ
-  CellField<Real> height;    ///< of the cell's centre above the surface
   CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
   Real t = 0;                ///< time of alpha and B
   solid::Strain strain;      ///< in the last step

@@ -9,7 +9,7 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("p", state_.p);
   snapshot.add("phi", state_.phi);
   snapshot.add("momentum_history", momentum_.history());
-  if (auto& past = momentum_.past()) snapshot.add("momentum_past", past->u);
+  if (auto& past = momentum_.past()) snapshot.add("momentum_past", past->u, "u");
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
   snapshot.add("momentum_steps", &momentum_.steps_taken);
   snapshot.add("dt_cap", &dt_cap_);

@@ -60,7 +60,6 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
       balance_(mesh),
-      stiff_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
@@ -104,10 +103,9 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   if (mu_varies()) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
-      traction_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+      two_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+    if (two_) momentum_.hold_past();
   }
-  momentum_.hold_past();
-  momentum_.second_order = traction_.has_value();
   mix_viscosity();
   hold_backup();
 }
@@ -215,11 +213,11 @@ void Solver::stiffen(Real dt) {
                                 dt,
                                 !map,
                                 body_->sided.has_value(),
-                                traction_ ? &body_->normal : nullptr};
+                                two_ ? &two_->normal : nullptr};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
-  if (!traction_) return;
-  stiff_.assign(kappa_);
-  traction_->stiffen(stiff_, body_->alpha_f, body_->band);
+  if (!two_) return;
+  two_->stiff.assign(kappa_);
+  two_->traction.stiffen(two_->stiff, body_->alpha_f, body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -228,14 +226,14 @@ void Solver::set_elastic_force() {
                                  body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
-  if (traction_) {
-    vof::cell_plane(body_->normal, body_->height, body_->alpha, body_->interface, mesh_,
+  if (two_) {
+    vof::cell_plane(two_->normal, two_->height, body_->alpha, body_->interface, mesh_,
                     body_->band.cells());
-    mesh_.halo.update(body_->normal);
-    traction_->apply(force_, balance_,
-                     {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
-                      body_->normal, body_->height, mu_},
-                     weights_, projection_.stencil(), body_->band);
+    mesh_.halo.update(two_->normal);
+    two_->traction.apply(force_, balance_,
+                         {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
+                          two_->normal, two_->height, mu_},
+                         weights_, projection_.stencil(), body_->band);
   }
   solid::clear_negligible(balance_, physics_.G, body_->band);
   if (body_force_)

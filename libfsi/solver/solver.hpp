@@ -150,7 +150,7 @@ class Solver {
     return weights_.skewed || weights_.non_orthogonal || mu_varies() || (body_ && body_->sided);
   }
   /// What the momentum equation takes implicitly besides the viscosity.
-  const FaceField<Real>& implicit() const { return traction_ ? stiff_ : kappa_; }
+  const FaceField<Real>& implicit() const { return two_ ? two_->stiff : kappa_; }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
   void hold_backup();
@@ -159,6 +159,16 @@ class Solver {
     explicit Calls(Profile& profile);
     int update_gradients, advance_interface, transport_elastic, mix_viscosity, set_elastic_force,
         stiffen, predict_momentum, predict_flux, project, hold_mean_velocity, check;
+  };
+
+  /// What the surface between two viscosities needs.
+  struct TwoViscosities {
+    TwoViscosities(const Mesh& mesh, Real G, const solid::Viscosities& mu)
+        : traction(mesh, G, mu), normal(mesh), height(mesh), stiff(mesh) {}
+    solid::SurfaceTraction traction;
+    CellField<Vec3> normal;  ///< of the surface in a cell, out of the solid
+    CellField<Real> height;  ///< of the cell's centre above the surface
+    FaceField<Real> stiff;   ///< kappa_ and that of the traction
   };
 
   const Mesh& mesh_;
@@ -172,14 +182,13 @@ class Solver {
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
   FaceField<Real> mu_, kappa_, balance_;
-  FaceField<Real> stiff_;  // kappa_ and that of the surface traction, where there is one
   GradientStencil u_stencil_;
   flow::Projection projection_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
-  std::optional<solid::BodyForce> body_force_;      // where there is one
-  std::optional<solid::SurfaceTraction> traction_;  // where the viscosities differ
+  std::optional<solid::BodyForce> body_force_;  // where there is one
+  std::optional<TwoViscosities> two_;           // where they differ
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step

@@ -42,12 +42,13 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
   flow::viscous_compact(visc, mu_f, u, u_b, open, weights, mesh);
   flow::viscous_rest(visc, mu_f, mu.fluid, L, open, weights, mesh);
-  vof::cell_plane(body.normal, body.height, body.alpha, body.interface, mesh, body.band.cells());
+  CellField<Vec3> normal(mesh);
+  CellField<Real> height(mesh);
+  vof::cell_plane(normal, height, body.alpha, body.interface, mesh, body.band.cells());
   solid::SurfaceTraction traction(mesh, 0, mu);
-  traction.apply(
-      force, balance,
-      {u, L, body.B, body.alpha, body.alpha_f, body.normal_f, body.normal, body.height, mu_f},
-      weights, of_p, body.band);
+  traction.apply(force, balance,
+                 {u, L, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f},
+                 weights, of_p, body.band);
   CellField<Real> s(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) s[c] = -2 * k * (mu.solid - mu.fluid) * body.alpha[c];
   CellField<Vec3> grad_s(mesh);
