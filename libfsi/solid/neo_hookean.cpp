@@ -84,7 +84,7 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
                              lambda * alpha[N] * along(grad[N], d);
     balance[f] = jump + dot(n, dot(G_ * dev(smooth), n));
   }
-  mesh_.halo.update(level_, band.listed());
+  mesh_.halo.update(level_);  // all of it: cells beyond the band have a part of the outermost jumps
   add_level(force, balance, level_, weights, mesh_, band);
 }
 

@@ -91,6 +91,7 @@ def go_through(name, source, drivers, folder, launcher):
         print(f"{name}: killed after {seconds:.2f} s of {length:.2f} {' '.join(restart)}")
         kill_after([*command, "-output_dir", cut, *restart], seconds)
     restart = ["-restart"] if glob.glob(os.path.join(cut, "checkpoint_*.h5")) else []
+    print(f"{name}: to the end {' '.join(restart)}")
     subprocess.run([*command, "-output_dir", cut, *restart], check=True, stdin=subprocess.DEVNULL,
                    stdout=subprocess.DEVNULL)
     bad = []

@@ -1,0 +1,90 @@
+// Whether the state that a checkpoint gives back is the one it was made of, bit for bit: what two
+// ranks hold of a cell or a face must not differ.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/io/layout.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// A disc (ball) in a cavity whose lid slides.
+struct Scene {
+  std::array<Index, 3> n{24, 24, 0};
+  bool simplex = false;
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Real G = 0.1, mu_s = 0.01;
+  int steps = 60;
+};
+
+/// Collective. The fields that a checkpoint would hold of which some rank has other values than the
+/// owner. The history of the momentum is of owned cells alone.
+std::string different(Solver& solver, const io::Layout& cells, const io::Layout& faces) {
+  const Mesh& mesh = solver.mesh();
+  io::Snapshot all;
+  solver.list(all);
+  std::string names;
+  for (const io::Snapshot::Values& field : all.fields()) {
+    if (field.on == On::boundary || field.name == "momentum_history") continue;
+    const bool on_cells = field.on == On::cells;
+    const io::Layout& layout = on_cells ? cells : faces;
+    std::vector<Real> again(static_cast<std::size_t>(on_cells ? mesh.n_cells : mesh.n_faces) *
+                            static_cast<std::size_t>(field.width));
+    layout.scatter(layout.gather(field.values, field.width), field.width, again.data());
+    if (on_cells) mesh.halo.update(again.data(), field.width);
+    if (!all_of_ranks(std::equal(again.begin(), again.end(), field.values)))
+      names += " " + field.name;
+  }
+  return names;
+}
+
+void expect_one_state(const Scene& scene) {
+  const Mesh mesh = test::read_box({.n = scene.n, .simplex = scene.simplex});
+  Conditions conditions{{"top", Wall{{1, 0, 0}}}};
+  for (const char* name : {"left", "right", "bottom"}) conditions[name] = Wall{};
+  if (mesh.dim == 3) conditions["back"] = conditions["front"] = Slip{};
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = scene.G},
+                {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.5, mesh.dim == 3 ? 0.5 : 0}),
+                   scene.kinematics);
+  const io::Layout cells(mesh, On::cells), faces(mesh, On::faces);
+  for (int i = 0; i < scene.steps; ++i) {
+    const Real dt = std::min({0.02, solver.advective_dt(0.5), solver.boundary_dt(0.5),
+                              solver.carried_dt(), solver.elastic_dt()});
+    ASSERT_GT(solver.advance(dt), 0) << solver.report().failure;
+    ASSERT_EQ(different(solver, cells, faces), "") << "after step " << i + 1;
+  }
+}
+
+TEST(Ranks, HoldOneStateOfADisc) { expect_one_state({.steps = 250}); }
+
+TEST(Ranks, HoldOneStateOfAMappedDisc) {
+  expect_one_state({.kinematics = KinematicsKind::reference_map});
+}
+
+TEST(Ranks, HoldOneStateForThePaperScheme) {
+  expect_one_state({.kinematics = KinematicsKind::left_cauchy_green});
+}
+
+TEST(Ranks, HoldOneStateOnTriangles) { expect_one_state({.n = {16, 16, 0}, .simplex = true}); }
+
+TEST(Ranks, HoldOneStateWithTwoViscosities) {
+  for (const Real mu_s : {0.002, 0.1}) expect_one_state({.mu_s = mu_s});
+}
+
+TEST(Ranks, HoldOneStateOfABall) {
+  for (const bool simplex : {false, true})
+    expect_one_state({.n = {8, 8, 8}, .simplex = simplex, .steps = 10});
+}
+
+}  // namespace
+}  // namespace fsi
