@@ -152,7 +152,8 @@ bool Checkpoint::write(const Snapshot& snapshot) {
     image->group("/fields");
   }
   for (const Snapshot::Values& f : snapshot.fields()) {
-    const std::vector<Real> all = layout(f.on).gather(f.values, f.width);
+    std::vector<Real> room;
+    const std::span<const Real> all = layout(f.on).gather(f.values, f.width, room);
     if (image) image->dataset("/fields/" + f.name, all, f.width);
   }
   std::string reason;

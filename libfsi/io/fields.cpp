@@ -27,13 +27,16 @@ void head(Hdf5Image& image) {
   image.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
 }
 
-/// xx xy xz yy yz zz -> xx yy zz xy yz xz, as ParaView names the components.
-void order_as_paraview(std::vector<Real>& values) {
+/// xx xy xz yy yz zz -> xx yy zz xy yz xz, as ParaView names the components. values: room for
+/// them, or where they are already.
+std::span<const Real> ordered_as_paraview(std::span<const Real> from, std::vector<Real>& values) {
+  if (from.data() != values.data()) values.assign(from.begin(), from.end());
   for (std::size_t i = 0; i + 6 <= values.size(); i += 6) {
     const std::array v{values[i],     values[i + 3], values[i + 5],
                        values[i + 1], values[i + 4], values[i + 2]};
     std::copy(v.begin(), v.end(), values.begin() + static_cast<std::ptrdiff_t>(i));
   }
+  return values;
 }
 
 /// Collective. Rank 0's reason becomes everybody's Error{io}.
@@ -122,8 +125,9 @@ void FieldWriter::write(Real t, std::span<const NamedField> fields) {
     image->group("/VTKHDF/CellData");
   }
   for (const NamedField& f : fields) {
-    std::vector<Real> all = cells_.gather(f.values, f.width);
-    if (f.width == 6) order_as_paraview(all);
+    std::vector<Real> room;
+    std::span<const Real> all = cells_.gather(f.values, f.width, room);
+    if (f.width == 6 && image) all = ordered_as_paraview(all, room);
     if (image) image->dataset("/VTKHDF/CellData/" + f.name, all, f.width);
   }
   std::string path, reason;

@@ -90,14 +90,15 @@ void Layout::place_faces(const Mesh& mesh, bool boundary_only) {
   MPI_Bcast(&size_, 1, MPI_INT64_T, 0, comm());
 }
 
-std::vector<Real> Layout::gather(const Real* values, int width) const {
+std::span<const Real> Layout::gather(const Real* values, int width, std::vector<Real>& room) const {
   const auto w = static_cast<std::size_t>(width);
-  if (ranks() == 1) return {values, values + static_cast<std::ptrdiff_t>(size_) * width};
+  if (ranks() == 1) return {values, static_cast<std::size_t>(size_) * w};
   if (rank() != 0) {
     MPI_Send(values, n_local_ * width, MPI_DOUBLE, 0, tag, comm());
     return {};
   }
-  std::vector<Real> all(static_cast<std::size_t>(size_) * w), other;
+  std::vector<Real> other;
+  room.resize(static_cast<std::size_t>(size_) * w);
   for (std::size_t r = 0; r < places_.size(); ++r) {
     const std::vector<GlobalIndex>& places = places_[r];
     const Real* from = values;
@@ -109,9 +110,9 @@ std::vector<Real> Layout::gather(const Real* values, int width) const {
     }
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i] >= 0)
-        std::copy_n(from + i * w, w, all.begin() + static_cast<std::ptrdiff_t>(w) * places[i]);
+        std::copy_n(from + i * w, w, room.begin() + static_cast<std::ptrdiff_t>(w) * places[i]);
   }
-  return all;
+  return room;
 }
 
 void Layout::scatter(std::span<const Real> all, int width, Real* values) const {

@@ -23,8 +23,9 @@ class Layout {
   GlobalIndex size() const { return size_; }
 
   /// Collective. values: the rank's items, `width` Reals each (cells: owned ones). Rank 0 gets
-  /// size * width Reals in file order, the others nothing.
-  std::vector<Real> gather(const Real* values, int width) const;
+  /// size * width Reals in file order, the others nothing: in `room`, on one rank the values
+  /// themselves.
+  std::span<const Real> gather(const Real* values, int width, std::vector<Real>& room) const;
 
   /// Collective. The reverse: rank 0's `all` fills every rank's items (halo cells excluded).
   void scatter(std::span<const Real> all, int width, Real* values) const;

@@ -36,9 +36,9 @@ std::string different(Solver& solver, const io::Layout& cells, const io::Layout&
     if (field.on == On::boundary || field.name == "momentum_history") continue;
     const bool on_cells = field.on == On::cells;
     const io::Layout& layout = on_cells ? cells : faces;
-    std::vector<Real> again(static_cast<std::size_t>(on_cells ? mesh.n_cells : mesh.n_faces) *
-                            static_cast<std::size_t>(field.width));
-    layout.scatter(layout.gather(field.values, field.width), field.width, again.data());
+    std::vector<Real> room, again(static_cast<std::size_t>(on_cells ? mesh.n_cells : mesh.n_faces) *
+                                  static_cast<std::size_t>(field.width));
+    layout.scatter(layout.gather(field.values, field.width, room), field.width, again.data());
     if (on_cells) mesh.halo.update(again.data(), field.width);
     if (!all_of_ranks(std::equal(again.begin(), again.end(), field.values)))
       names += " " + field.name;
