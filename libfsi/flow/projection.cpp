@@ -65,6 +65,7 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
       adjustable_(open_face_.size(), 0),
       stencil_(mesh, weights, pressure_given(conditions)),
       zero_(mesh),
+      first_(mesh),
       b_(static_cast<std::size_t>(mesh.n_owned)),
       system_(mesh, "p", method, !open_, 1e-6) {
   for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -134,7 +135,7 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
     const Solve solve = system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
     total.iterations += solve.iterations;
     total.residual = solve.residual;
-    if (corrector < correctors_) gradient(grad_q, q, zero_, stencil_, mesh_);
+    if (corrector < correctors_) set_gradient(grad_q, q, zero_);
   }
   // phi = phi* - g (q_N - q_P) - k . (grad q)_f with the same grad q as in the last right-hand side
   const bool correct = correctors_ > 0;
@@ -151,7 +152,7 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
     phi[f] += weights_.g[f] * q[P];
     if (correct) phi[f] -= dot(grad_q[P], weights_.k[f]);
   }
-  gradient(grad_q, q, zero_, stencil_, mesh_);
+  set_gradient(grad_q, q, zero_);
   return total;
 }
 

@@ -53,6 +53,12 @@ class Projection {
   /// in units of volume per time. Errors: Error{numerics}.
   Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real absolute);
 
+  /// Collective. grad p, owned and halo (operators/gradient.hpp); p: owned and halo, p_b: at
+  /// openings.
+  void set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
+                    const BoundaryField<Real>& p_b) {
+    pressure_gradient(grad, first_, p, p_b, stencil_, mesh_);
+  }
   /// Where the pressure is given it counts as a value, elsewhere it is extrapolated to the wall.
   const GradientStencil& stencil() const { return stencil_; }
   /// Whether some patch gives the pressure.
@@ -70,6 +76,7 @@ class Projection {
   Real adjustable_area_ = 0;
   GradientStencil stencil_;
   BoundaryField<Real> zero_;
+  CellField<Vec3> first_;  // scratch of set_gradient
   std::vector<Real> b_;
   LinearSystem system_;
 };

@@ -25,12 +25,32 @@ void gradient_of(CellField<Grad>& grad, const CellField<T>& q, const BoundaryFie
   mesh.halo.update(grad);
 }
 
+/// (1/V) sum_f (first)_f . skew S outward of cell c, first . d S at the boundary without a value.
+Vec3 skewness(const CellField<Vec3>& first, const GradientStencil& stencil, const Mesh& mesh,
+              Index c) {
+  const FaceWeights& weights = stencil.weights;
+  Vec3 sum;
+  for (const Index f : mesh.cell_faces[c]) {
+    const Index P = mesh.owner[f];
+    if (f >= mesh.n_internal) {
+      if (stencil.given[f - mesh.n_internal] == 0) sum += dot(first[c], mesh.d[f]) * mesh.Sf[f];
+      continue;
+    }
+    const Real lambda = weights.lambda[f];
+    const Vec3 mean = (1 - lambda) * first[P] + lambda * first[mesh.neighbour[f]];
+    sum += (P == c ? 1 : -1) * dot(mean, weights.skew[f]) * mesh.Sf[f];
+  }
+  return (1 / mesh.V[c]) * sum;
+}
+
 }  // namespace
 
-GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights,
+GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
                                  const std::vector<bool>& has_value)
-    : owner(static_cast<std::size_t>(mesh.n_faces)),
-      neighbour(static_cast<std::size_t>(mesh.n_internal)) {
+    : weights(weights_),
+      owner(static_cast<std::size_t>(mesh.n_faces)),
+      neighbour(static_cast<std::size_t>(mesh.n_internal)),
+      given(static_cast<std::size_t>(mesh.n_boundary()), 0) {
   // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d:
   // the gradient along the normal taken as zero there.
   std::vector<Tensor> M(static_cast<std::size_t>(mesh.n_cells)), fallback(M.size());
@@ -45,6 +65,7 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights,
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index P = mesh.owner[f];
       const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f];
+      given[f - mesh.n_internal] = has_value[i] ? 1 : 0;
       if (has_value[i]) {
         owner[f] = g0;
         M[P] += outer(g0, mesh.d[f]);
@@ -72,6 +93,33 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights,
 void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryField<Real>& q_b,
               const GradientStencil& stencil, const Mesh& mesh) {
   gradient_of(grad, q, q_b, stencil, mesh);
+}
+
+void pressure_gradient(CellField<Vec3>& grad, CellField<Vec3>& first, const CellField<Real>& q,
+                       const BoundaryField<Real>& q_b, const GradientStencil& stencil,
+                       const Mesh& mesh) {
+  const FaceWeights& weights = stencil.weights;
+  if (!weights.skewed) return gradient(grad, q, q_b, stencil, mesh);
+  gradient(first, q, q_b, stencil, mesh);
+  grad.fill({});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Vec3 rise = (q[N] - q[P]) * mesh.Sf[f];
+    grad[P] += weights.lambda[f] * rise;
+    grad[N] += (1 - weights.lambda[f]) * rise;
+  }
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f], b = f - mesh.n_internal;
+    if (stencil.given[b] != 0) grad[P] += (q_b[b] - q[P]) * mesh.Sf[f];
+  }
+  for (Index c = 0; c < mesh.n_owned; ++c) grad[c] *= 1 / mesh.V[c];
+  for (Index c = 0; c < mesh.n_owned; ++c) grad[c] += skewness(first, stencil, mesh, c);
+  mesh.halo.update(grad);
+}
+
+void add_skewness(CellField<Vec3>& sum, const CellField<Vec3>& first,
+                  const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells) {
+  for (const Index c : cells) sum[c] += skewness(first, stencil, mesh, c);
 }
 
 void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libfsi/field/band.hpp"
-#include "libfsi/operators/gradient.hpp"
+#include "libfsi/solid/level.hpp"
 
 namespace fsi::solid {
 
@@ -12,10 +12,10 @@ namespace fsi::solid {
 /// force taken cell by cell leaves there what no pressure balances.
 class BodyForce {
  public:
-  BodyForce(const Mesh& mesh, const Vec3& a) : mesh_(mesh), a_(a), f_(mesh) {}
+  BodyForce(const Mesh& mesh, const Vec3& a) : mesh_(mesh), a_(a), level_(mesh) {}
 
   /// Collective. With F_f = alpha_f a . d, the pressure's rise over a face that balances it:
-  ///   force_c   += f_c = sum_f g_cf F_f, signed outward: the gradient of that pressure
+  ///   force_c   += f_c, the gradient of that pressure (Level)
   ///   balance_f += F_f - (f)_f . d, its counterpart in the face flux
   /// Where p_N - p_P = F_f on every face, neither cells nor faces are accelerated. stencil: that of
   /// the pressure; alpha_f: on the band's faces. force: owned and halo.
@@ -25,8 +25,7 @@ class BodyForce {
  private:
   const Mesh& mesh_;
   Vec3 a_;
-  CellField<Vec3> f_;
-  std::vector<Index> last_cells_;
+  Level level_;
 };
 
 }  // namespace fsi::solid

@@ -2,20 +2,18 @@
 
 #include <cmath>
 
-#include "libfsi/solid/level.hpp"
-
 namespace fsi::solid {
 
 NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), level_(mesh) {}
 
 void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
                        CellField<SymGradient>& grad, const Band& band) {
-  for (const Index c : last_cells_) force[c] = level_[c] = {}, grad[c] = {};
+  for (const Index c : last_cells_) force[c] = {}, grad[c] = {};
   for (const Index f : last_faces_) {
     balance[f] = 0;
     // The outermost faces push at cells beyond the band.
-    force[mesh_.owner[f]] = level_[mesh_.owner[f]] = {};
-    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = level_[mesh_.neighbour[f]] = {};
+    force[mesh_.owner[f]] = {};
+    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = {};
   }
   last_cells_ = band.cells();
   last_faces_ = band.faces();
@@ -55,6 +53,7 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
                             const Band& band, const CellField<SymGradient>& grad) {
   const CellField<SymTensor>& B = solid.B;
   const CellField<Real>& alpha = solid.alpha;
+  level_.clear();
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     const Real a_f = (*solid.alpha_f)[f];
@@ -76,16 +75,14 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
     // alpha_f (tau - s I) + alpha_c s I, and the level part
     force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
     force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
-    level_[P] += jump * stencil.owner[f];
-    level_[N] -= jump * stencil.neighbour[f];
+    level_.add(f, jump, weights, stencil);
     // what alpha dev B rises between the cells beyond the jump, less the mean of alpha grad dev B
     const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
                              (1 - lambda) * alpha[P] * along(grad[P], d) -
                              lambda * alpha[N] * along(grad[N], d);
     balance[f] = jump + dot(n, dot(G_ * dev(smooth), n));
   }
-  mesh_.halo.update(level_);  // all of it: cells beyond the band have a part of the outermost jumps
-  add_level(force, balance, level_, weights, mesh_, band);
+  level_.apply(force, balance, weights, stencil, band);
 }
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,

@@ -3,6 +3,7 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/level.hpp"
 
 namespace fsi::solid {
 
@@ -50,7 +51,7 @@ class NeoHookean {
 
   const Mesh& mesh_;
   Real G_;
-  CellField<Vec3> level_;                       // sum_f g_cf s (alpha_n - alpha_c)
+  Level level_;                                 // the jump of the normal stress
   std::vector<Index> last_cells_, last_faces_;  // where something was written
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "libfsi/solid/extension.hpp"
-#include "libfsi/solid/level.hpp"
 #include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
@@ -51,9 +50,8 @@ bool SurfaceTraction::uncut(Real alpha) const {
 }
 
 void SurfaceTraction::clear(const Band& band) {
-  const auto reset = [&](Index c) {
-    level_[c] = kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0;
-  };
+  level_.clear();
+  const auto reset = [&](Index c) { kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0; };
   for (const Index c : last_cells_) reset(c), own_[c] = {};
   for (const Index f : last_faces_) {
     reset(mesh_.owner[f]);
@@ -198,8 +196,7 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balanc
     force[P] += (1 / mesh_.V[P]) * flux_of(P);
     force[N] -= (1 / mesh_.V[N]) * flux_of(N);
     const Real jump = s * (alpha[N] - alpha[P]);
-    level_[P] += jump * stencil.owner[f];
-    level_[N] -= jump * stencil.neighbour[f];
+    level_.add(f, jump, weights, stencil);
     balance[f] += jump;
   }
 }
@@ -243,8 +240,7 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   mesh_.halo.update(L_in_);
   add_excess(force, balance, surface, weights, stencil, band);
   add_transposed(force, surface, weights, band);
-  mesh_.halo.update(level_);
-  add_level(force, balance, level_, weights, mesh_, band);
+  level_.apply(force, balance, weights, stencil, band);
   mesh_.halo.update(force);
 }
 

@@ -7,6 +7,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/solid/level.hpp"
 
 namespace fsi::solid {
 
@@ -103,7 +104,7 @@ class SurfaceTraction {
   Real G_;
   Viscosities mu_;
   Real mu_least_;               // that counts for the solid's in series
-  CellField<Vec3> level_;       // sum_f g_cf s (alpha_n - alpha_c)
+  Level level_;                 // s
   CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut, more viscous
   CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
   CellField<Real> fitted_;      // 1: has a fit

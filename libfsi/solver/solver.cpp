@@ -133,7 +133,7 @@ void Solver::step(Real dt) {
 
 void Solver::update_gradients() {
   const Profile::Call call(profile_, calls_.update_gradients);
-  gradient(grad_p_, state_.p, p_b_, projection_.stencil(), mesh_);
+  projection_.set_gradient(grad_p_, state_.p, p_b_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
 }

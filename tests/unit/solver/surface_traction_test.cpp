@@ -52,7 +52,8 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   CellField<Real> s(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) s[c] = -2 * k * (mu.solid - mu.fluid) * body.alpha[c];
   CellField<Vec3> grad_s(mesh);
-  gradient(grad_s, s, BoundaryField<Real>(mesh), of_p, mesh);
+  CellField<Vec3> first(mesh);
+  pressure_gradient(grad_s, first, s, BoundaryField<Real>(mesh), of_p, mesh);
   Real worst = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Vec3 x = mesh.C[c];

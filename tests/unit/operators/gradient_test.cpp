@@ -1,0 +1,73 @@
+// The gradient of a pressure: exact for linear fields, and a force of face values.
+
+#include "libfsi/operators/gradient.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// Irregular triangles and tetrahedra.
+Mesh irregular(Index depth) {
+  test::BoxFile box{.n = {8, 6, depth}, .simplex = true};
+  box.moved = [](const Vec3& x) {
+    const Real inside = x.x * (1 - x.x) * x.y * (1 - x.y);
+    return x + (0.5 * inside * std::sin(40 * x.x + 60 * x.y + 50 * x.z)) * Vec3{1, -1, 0};
+  };
+  return test::read_box(box);
+}
+
+TEST(PressureGradient, IsExactForLinearFields) {
+  for (const Index depth : {0, 5})
+    for (const bool given : {false, true}) {
+      const Mesh mesh = irregular(depth);
+      const FaceWeights weights(mesh);
+      EXPECT_TRUE(weights.skewed);
+      const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), given));
+      const Vec3 slope{1, -2, mesh.dim == 3 ? 3.0 : 0.0};
+      CellField<Real> q(mesh);
+      BoundaryField<Real> q_b(mesh);
+      for (Index c = 0; c < mesh.n_cells; ++c) q[c] = dot(slope, mesh.C[c]);
+      for (Index b = 0; b < mesh.n_boundary(); ++b)
+        q_b[b] = given ? dot(slope, mesh.Cf[mesh.n_internal + b]) : 1e9;
+      CellField<Vec3> grad(mesh), first(mesh);
+      pressure_gradient(grad, first, q, q_b, stencil, mesh);
+      Real worst = 0;
+      // a cell at the boundary may have too few neighbours where that has no value
+      for (Index c = 0; c < mesh.n_owned; ++c)
+        if (given || std::max(std::abs(mesh.C[c].x - 0.5), std::abs(mesh.C[c].y - 0.5)) < 0.25)
+          worst = std::max(worst, norm(grad[c] - slope));
+      EXPECT_LE(global_max(worst), 1e-11) << mesh.dim << " " << given;
+    }
+}
+
+// Whatever the pressure, what one cell loses another gets: its forces add up to that of the walls.
+TEST(PressureGradient, HasNoMeanForceOfItsOwn) {
+  for (const Index depth : {0, 5}) {
+    const Mesh mesh = irregular(depth);
+    const FaceWeights weights(mesh);
+    const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), true));
+    CellField<Real> q(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) q[c] = std::sin(1e3 * mesh.C[c].x + 1e4 * mesh.C[c].y);
+    CellField<Vec3> grad(mesh), first(mesh);
+    const auto sum_of = [&] {
+      Sum x, y;
+      for (Index c = 0; c < mesh.n_owned; ++c)
+        x.add(mesh.V[c] * grad[c].x), y.add(mesh.V[c] * grad[c].y);
+      return std::hypot(x.total(), y.total());
+    };
+    pressure_gradient(grad, first, q, BoundaryField<Real>(mesh), stencil, mesh);
+    EXPECT_LE(sum_of(), 1e-13);
+    gradient(grad, q, BoundaryField<Real>(mesh), stencil, mesh);
+    EXPECT_GE(sum_of(), 1e-3);  // the plain one has
+  }
+}
+
+}  // namespace
+}  // namespace fsi
