@@ -65,7 +65,6 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
       adjustable_(open_face_.size(), 0),
       stencil_(mesh, weights, pressure_given(conditions)),
       zero_(mesh),
-      first_(mesh),
       b_(static_cast<std::size_t>(mesh.n_owned)),
       system_(mesh, "p", method, !open_, 1e-6) {
   for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -123,7 +122,7 @@ void Projection::outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad
 }
 
 Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
-                          Real absolute) {
+                          CellField<Vec3>& scratch, Real absolute) {
   balance_boundary(phi);
   // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
   // sine of the angle: two digits are enough there.
@@ -135,7 +134,7 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
     const Solve solve = system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
     total.iterations += solve.iterations;
     total.residual = solve.residual;
-    if (corrector < correctors_) set_gradient(grad_q, q, zero_);
+    if (corrector < correctors_) set_gradient(grad_q, scratch, q, zero_);
   }
   // phi = phi* - g (q_N - q_P) - k . (grad q)_f with the same grad q as in the last right-hand side
   const bool correct = correctors_ > 0;
@@ -152,7 +151,7 @@ Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Ve
     phi[f] += weights_.g[f] * q[P];
     if (correct) phi[f] -= dot(grad_q[P], weights_.k[f]);
   }
-  set_gradient(grad_q, q, zero_);
+  set_gradient(grad_q, scratch, q, zero_);
   return total;
 }
 

@@ -50,14 +50,15 @@ class Projection {
 
   /// phi: every face set. On return phi is divergence-free to the solver's tolerance; q and grad_q
   /// (owned and halo) are what u and p are to be corrected with. absolute: see LinearSystem::solve,
-  /// in units of volume per time. Errors: Error{numerics}.
-  Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real absolute);
+  /// in units of volume per time. scratch: overwritten. Errors: Error{numerics}.
+  Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
+                CellField<Vec3>& scratch, Real absolute);
 
   /// Collective. grad p, owned and halo (operators/gradient.hpp); p: owned and halo, p_b: at
-  /// openings.
-  void set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
-                    const BoundaryField<Real>& p_b) {
-    pressure_gradient(grad, first_, p, p_b, stencil_, mesh_);
+  /// openings. scratch: overwritten.
+  void set_gradient(CellField<Vec3>& grad, CellField<Vec3>& scratch, const CellField<Real>& p,
+                    const BoundaryField<Real>& p_b) const {
+    pressure_gradient(grad, scratch, p, p_b, stencil_, mesh_);
   }
   /// Where the pressure is given it counts as a value, elsewhere it is extrapolated to the wall.
   const GradientStencil& stencil() const { return stencil_; }
@@ -76,7 +77,6 @@ class Projection {
   Real adjustable_area_ = 0;
   GradientStencil stencil_;
   BoundaryField<Real> zero_;
-  CellField<Vec3> first_;  // scratch of set_gradient
   std::vector<Real> b_;
   LinearSystem system_;
 };

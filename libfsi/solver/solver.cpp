@@ -81,7 +81,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_, mu_,
                               kappa_,   kappa_,  1,    physics_.rho, 0};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
-  projection_.project(state_.phi, q_, grad_q_, 1e-12 * mesh_.total_volume);
+  projection_.project(state_.phi, q_, grad_q_, grad_p_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
   if (forcing_) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
@@ -133,7 +133,7 @@ void Solver::step(Real dt) {
 
 void Solver::update_gradients() {
   const Profile::Call call(profile_, calls_.update_gradients);
-  projection_.set_gradient(grad_p_, state_.p, p_b_);
+  projection_.set_gradient(grad_p_, grad_q_, state_.p, p_b_);
   set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
   if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
 }
@@ -268,7 +268,7 @@ void Solver::project(Real dt) {
   flow::divergence(divergence_, state_.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   const Solve solve =
-      projection_.project(state_.phi, q_, grad_q_, volume_change * cells_norm_ / dt);
+      projection_.project(state_.phi, q_, grad_q_, grad_p_, volume_change * cells_norm_ / dt);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
