@@ -104,16 +104,17 @@ void pressure_gradient(CellField<Vec3>& grad, CellField<Vec3>& first, const Cell
   grad.fill({});
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    const Vec3 rise = (q[N] - q[P]) * mesh.Sf[f];
-    grad[P] += weights.lambda[f] * rise;
-    grad[N] += (1 - weights.lambda[f]) * rise;
+    const Real lambda = weights.lambda[f], rise = q[N] - q[P];
+    const Real rest = dot((1 - lambda) * first[P] + lambda * first[N], weights.skew[f]);
+    grad[P] += (lambda * rise + rest) * mesh.Sf[f];
+    grad[N] += ((1 - lambda) * rise - rest) * mesh.Sf[f];
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f], b = f - mesh.n_internal;
-    if (stencil.given[b] != 0) grad[P] += (q_b[b] - q[P]) * mesh.Sf[f];
+    const Real rise = stencil.given[b] != 0 ? q_b[b] - q[P] : dot(first[P], mesh.d[f]);
+    grad[P] += rise * mesh.Sf[f];
   }
   for (Index c = 0; c < mesh.n_owned; ++c) grad[c] *= 1 / mesh.V[c];
-  for (Index c = 0; c < mesh.n_owned; ++c) grad[c] += skewness(first, stencil, mesh, c);
   mesh.halo.update(grad);
 }
 
