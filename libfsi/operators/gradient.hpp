@@ -32,8 +32,8 @@ void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryFie
               const GradientStencil& stencil, const Mesh& mesh);
 /// The gradient of a pressure, whose force must be one of face values: with `first` the gradient
 /// above,
-///   grad q_c = (1/V) sum_f (q_f - q_c) S,   q_f = (1 - lambda) q_P + lambda q_N + (first)_f .
-///   skew,
+///   grad q_c = (1/V) sum_f (q_f - q_c) S,
+///   q_f = (1 - lambda) q_P + lambda q_N + (first)_f . skew,
 /// S outward, q_P + first . d where the boundary has no value. Exact for linear fields too; without
 /// skewness the same. The weights g of a face's two cells differ on irregular cells, and a pressure
 /// that alternates from cell to cell, as these make it, has a mean force with them: on a Delaunay

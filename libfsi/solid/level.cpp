@@ -7,6 +7,7 @@ void Level::clear() {
     const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
     first_[P] = whole_[P] = first_[N] = whole_[N] = {};
   }
+  for (const Index c : cells_) whole_[c] = {};
   faces_.clear();
 }
 
@@ -30,6 +31,7 @@ void Level::apply(CellField<Vec3>& force, FaceField<Real>& balance, const FaceWe
                   const GradientStencil& stencil, const Band& band) {
   mesh_.halo.update(first_);  // all of it: cells beyond the band have a part of the outermost rises
   if (weights.skewed) {
+    cells_ = band.cells();  // the neighbours of cells at a rise get a part as well
     add_skewness(whole_, first_, stencil, mesh_, band.cells());
     mesh_.halo.update(whole_);
   }

@@ -34,6 +34,7 @@ class Level {
   const Mesh& mesh_;
   CellField<Vec3> first_, whole_;  // l and, on skewed meshes, L
   std::vector<Index> faces_;       // with a rise
+  std::vector<Index> cells_;       // of the last band, on skewed meshes
 };
 
 }  // namespace fsi::solid
