@@ -1,53 +1,73 @@
 #pragma once
 // Values of the solid's interior carried outward into the fluid.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/solid/carrier.hpp"
 
 namespace fsi::solid {
 
 /// Cells from this fraction of solid on know their own deformation.
 inline constexpr Real alpha_known = 0.5;
 
-/// Continues a tensor known inside the solid into the cells around it:
+/// Continues a tensor known inside the solid (alpha >= 1/2) into three rings of cells around it,
+/// ring by ring, from the vertex neighbours k that are set already, w = 1 / |r|^2, r from k:
 ///
-///   known        alpha >= 1/2: T as it is
-///   not known    T = sum w T_k / sum w, w = 1 / |d|^2, over the vertex neighbours that are set
-///                already, ring by ring to three rings beyond the known cells; zero beyond
+///   linear     T = sum w (T_k + g_k . r) / sum w,   g = sum w g_k / sum w
+///   constant   T = sum w T_k / sum w
+///
+/// g of a known cell: least squares over its known vertex neighbours, times the part of it that
+/// the mean m over the surrounded ones among them bears out, (g : m) / (g : g) within [0, 1].
+/// Surrounded: the face neighbours are all known and no face is of the boundary. Exact for a linear
+/// T but where the solid is thin, which goes on as a constant; what alternates from cell to cell is
+/// not extrapolated.
 class Extension {
  public:
   explicit Extension(const Mesh& mesh);
 
-  /// Collective. Finds the inner ones among the cells of `known`, the band of alpha >= alpha_known:
-  /// those whose face neighbours are all known; and `near`.
+  /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known, and finds its
+  /// inner cells: those whose face neighbours are all known.
   void mark(const CellField<Real>& alpha, const Band& known);
-  /// Collective. T: owned and halo, before and after.
-  void apply(CellField<SymTensor>& T, const Band& known);
+  /// Collective. Linear. T: set on owned known cells before, in the rings and the halo too after,
+  /// zero where only an earlier call had set it. slope: scratch, zero in owned cells after.
+  void linear(CellField<SymTensor>& T, CellField<SymGradient>& slope);
+  /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is
+  /// touched. T: set on owned known cells before; where: not zero there, owned and halo.
+  void constant(CellField<SymTensor>& T, const CellField<Real>& where);
 
   /// Whether cell c is an inner one; owned and halo.
   bool inner(Index c) const { return zone_[c] > 1; }
-  /// Not zero in the cells of `known` and those around, and where the last call of `apply` left a
-  /// value; owned and halo.
+  /// Not zero in known cells and rings, those of the last two calls of `mark`; owned and halo.
   const CellField<Real>& near() const { return zone_; }
-  /// Owned cells that the last call of `apply` set or found known, but for the last ring.
-  std::span<const Index> inside() const { return std::span(set_).first(inside_); }
+  /// Owned known cells, then those of the rings but for the last.
+  std::span<const Index> inside() const { return std::span(set_).first(end_[rings - 1]); }
   /// Owned cells of the last ring.
-  std::span<const Index> last_ring() const { return std::span(set_).subspan(inside_); }
+  std::span<const Index> last_ring() const { return std::span(set_).subspan(end_[rings - 1]); }
 
  private:
+  static constexpr int rings = 3;
+
   void list_ring(Real ring, const Band& known);
-  void fill(CellField<SymTensor>& T, Real ring);
+  /// Owned known cells for 0, else those of the ring.
+  std::span<const Index> ring(int i) const {
+    const std::size_t begin = i == 0 ? 0 : end_[i - 1];
+    return std::span(set_).subspan(begin, end_[i] - begin);
+  }
+  void set_slopes(CellField<SymGradient>& slope, const CellField<SymTensor>& T);
+  SymGradient least_squares(const CellField<SymTensor>& T, Index c) const;
+  SymGradient borne_out(const CellField<SymGradient>& slope, Index c) const;
 
   const Mesh& mesh_;
-  CellField<Real> zone_;     // 1: near, 2: inner
-  CellField<Real> ring_of_;  // 1: known, 2 to 4: set by a ring; 0: not set
-  std::vector<Index> set_, last_set_, ring_, near_;
-  std::vector<SymTensor> values_;
-  std::size_t inside_ = 0;
+  CellField<Real> zone_;     // 1: near, 2: inner, 3: and away from the boundary
+  CellField<Real> ring_of_;  // 1: known, 2 to 4: of a ring; 0: neither
+  std::vector<Index> set_, last_set_, near_;
+  std::array<std::size_t, rings + 1> end_{};  // in set_, of the known cells and of each ring
+  std::vector<SymGradient> slopes_;
   std::vector<std::int32_t> stamp_;
   std::int32_t calls_ = 0;
 };

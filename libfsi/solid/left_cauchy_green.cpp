@@ -27,7 +27,7 @@ LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : Bt(mesh), mesh_(mesh), band
 void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
   for (Index c = 0; c < mesh_.n_cells; ++c)
     Bt[c] = alpha[c] >= alpha_min ? std::sqrt(alpha[c]) * identity() : SymTensor{};
-  resume(alpha);
+  mark(alpha);
 }
 
 void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
@@ -67,8 +67,8 @@ Strain LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& c
 }
 
 Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                            const CellField<Real>& alpha, std::span<const Index> cells) const {
-  for (const Index c : cells) {
+                            const CellField<Real>& alpha, const Band& band) const {
+  for (const Index c : band.core()) {
     const bool strained = alpha[c] >= alpha_min;
     B[c] = strained ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
     lambda[c] = strained ? eigen(B[c]).value[2] : 0;

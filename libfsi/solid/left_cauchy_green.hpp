@@ -29,7 +29,7 @@ class LeftCauchyGreen {
   /// Bt with B = I where alpha >= alpha_min. Halo set.
   void set_undeformed(const CellField<Real>& alpha);
   /// Renews what follows from Bt and alpha: after these were changed from outside.
-  void resume(const CellField<Real>& alpha) { band_.rebuild(alpha, alpha_min); }
+  void resume(const CellField<Real>& alpha, CellField<SymGradient>& /*grad*/) { mark(alpha); }
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
   void mark(const CellField<Real>& alpha) { band_.rebuild(alpha, alpha_min); }
@@ -45,10 +45,10 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the listed
-  /// cells. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
+  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the core of
+  /// the band. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
   Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             std::span<const Index> cells) const;
+             const Band& band) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;
 

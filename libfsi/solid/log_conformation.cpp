@@ -23,12 +23,12 @@ LogConformation::LogConformation(const Mesh& mesh)
 
 void LogConformation::set_undeformed(const CellField<Real>& alpha) {
   psi.fill({});
-  resume(alpha);
+  mark(alpha);
 }
 
-void LogConformation::resume(const CellField<Real>& alpha) {
+void LogConformation::resume(const CellField<Real>& alpha, CellField<SymGradient>& grad) {
   mark(alpha);
-  extension_.apply(psi, known_);
+  extension_.linear(psi, grad);
 }
 
 SymTensor LogConformation::isochoric(SymTensor p) const {
@@ -93,11 +93,11 @@ Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGrad
   for (std::size_t i = 0; i < core.size(); ++i) psi[core[i]] += dt * rate_[i];
   // The cells around follow the solid in this stage too: strained by the fluid's L they would feed
   // that back through the faces by which the flow enters the solid.
-  extension_.apply(psi, known_);
+  extension_.linear(psi, grad);
   const Real fastest = rate(carrier, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
-  extension_.apply(psi, known_);
+  extension_.linear(psi, grad);
   return fastest;
 }
 
@@ -110,10 +110,13 @@ Strain LogConformation::transport(const CellField<Real>& alpha, const Carrier& c
 }
 
 Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                            const CellField<Real>& alpha, std::span<const Index> cells) const {
+                            const CellField<Real>& alpha, const Band& band) {
+  // log B first
+  for (const Index c : known_.core()) B[c] = psi[c];
+  extension_.constant(B, band.listed());
   Real least = 0;
-  for (const Index c : cells) {
-    const Eigen e = eigen(psi[c]);
+  for (const Index c : band.cells()) {
+    const Eigen e = eigen(B[c]);
     if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);
     B[c] = exp(e);
     lambda[c] = std::exp(e.value[2]);

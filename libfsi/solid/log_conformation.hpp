@@ -32,8 +32,9 @@ class LogConformation {
 
   /// psi = 0.
   void set_undeformed(const CellField<Real>& alpha);
-  /// Renews what follows from psi and alpha: after psi was changed from outside. Collective.
-  void resume(const CellField<Real>& alpha);
+  /// Renews what follows from psi and alpha: after psi was changed from outside. Collective. grad:
+  /// scratch.
+  void resume(const CellField<Real>& alpha, CellField<SymGradient>& grad);
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
   void mark(const CellField<Real>& alpha) {
@@ -51,10 +52,12 @@ class LogConformation {
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
-  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
-  /// eigenvalue of B among those with solid, at most 1.
+  /// Collective. B and lambda, its largest eigenvalue, on the cells of the band of alpha >=
+  /// alpha_min. Around the known cells log B goes on as a constant: continued linearly, the stress
+  /// of the surface would answer to a strain of a cell by more than its stiffness tells. B: zero in
+  /// other cells. Returns the smallest eigenvalue of B among cells with solid, at most 1.
   Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             std::span<const Index> cells) const;
+             const Band& band);
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;
 

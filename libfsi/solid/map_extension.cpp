@@ -1,20 +1,13 @@
 #include "libfsi/solid/map_extension.hpp"
 
-#include <cmath>
+#include "libfsi/solid/regression.hpp"
 
 namespace fsi::solid {
 namespace {
 
-/// X with X M = R for a symmetric positive M; where M does not tell a direction (fewer neighbours
-/// than unknowns) the slope along it tends to zero.
-Tensor slope_of(Tensor M, const Tensor& R, int dim) {
-  if (dim == 2) M.zz = 1;
-  const Real mean = dim == 2 ? (M.xx + M.yy) / 2 : trace(M) / 3;
-  if (!(det(M) > 1e-3 * std::pow(mean, dim))) {
-    const Real more = 1e-2 * mean;
-    M.xx += more, M.yy += more, M.zz += more;
-  }
-  return dot(R, inverse(M));
+/// X with X M = R for a symmetric positive M.
+Tensor slope_of(const Tensor& M, const Tensor& R, int dim) {
+  return dot(R, inverse_of_moments(M, dim));
 }
 
 }  // namespace

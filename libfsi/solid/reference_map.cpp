@@ -31,14 +31,15 @@ ReferenceMap::ReferenceMap(const Mesh& mesh)
 void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
   d.fill({});
   is_set.fill(1);
-  resume(alpha);
+  mark(alpha);
+  extend();
 }
 
 void ReferenceMap::set(Index /*c*/, const SymTensor& /*B*/, Real /*alpha*/) {
   throw Error(Kind::input, "reference_map: B alone does not tell a map; give the map itself");
 }
 
-void ReferenceMap::resume(const CellField<Real>& alpha) {
+void ReferenceMap::resume(const CellField<Real>& alpha, CellField<SymGradient>& /*grad*/) {
   mark(alpha);
   extend();
 }
@@ -139,9 +140,9 @@ bool ReferenceMap::folded() const {
 }
 
 Real ReferenceMap::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                         const CellField<Real>& alpha, std::span<const Index> cells) const {
+                         const CellField<Real>& alpha, const Band& band) const {
   Real least = 1;
-  for (const Index c : cells) {
+  for (const Index c : band.cells()) {
     B[c] = this->B(c, alpha[c]);
     const Eigen e = eigen(B[c]);
     if (alpha[c] >= alpha_min) least = std::min(least, e.value[0]);

@@ -35,7 +35,8 @@ class ReferenceMap {
   /// xi = x.
   void set_undeformed(const CellField<Real>& alpha);
   /// Renews what follows from d and alpha: after these were changed from outside. Collective.
-  void resume(const CellField<Real>& alpha);
+  /// grad: not used.
+  void resume(const CellField<Real>& alpha, CellField<SymGradient>& grad);
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
   void mark(const CellField<Real>& alpha);
@@ -53,10 +54,10 @@ class ReferenceMap {
   /// Sets where the particle at the centre of the cell came from; then `resume`.
   void set_map(Index c, const Vec3& xi) { d[c] = xi - mesh_.C[c], is_set[c] = 1; }
 
-  /// B and lambda, its largest eigenvalue, on the listed cells. Returns the smallest
+  /// B and lambda, its largest eigenvalue, on the cells of the band. Returns the smallest
   /// eigenvalue of B among those with solid, at most 1.
   Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             std::span<const Index> cells) const;
+             const Band& band) const;
   /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
   SymTensor B(Index c, Real alpha) const;
   /// det grad xi of a cell: 1 but for the error of volume.

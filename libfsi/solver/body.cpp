@@ -59,7 +59,7 @@ void Body::weigh() {
         band.rebuild(alpha, k.alpha_min);
         for (const Index c : last_cells) B[c] = {}, lambda[c] = 0;
         last_cells = band.cells();
-        eigenvalue_min = k.weigh(B, lambda, alpha, k.extended ? band.cells() : band.core());
+        eigenvalue_min = k.weigh(B, lambda, alpha, band);
       },
       kinematics);
   if (extended()) {
@@ -86,7 +86,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
-  std::visit([&](auto& k) { k.resume(alpha); }, kinematics);
+  std::visit([&](auto& k) { k.resume(alpha, grad); }, kinematics);
   weigh();
 }
 

@@ -38,12 +38,12 @@ struct Full {
   }
   void set_B(const std::function<SymTensor(const Vec3&)>& B) {
     for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set(c, B(mesh.C[c]), 1);
-    kinematics.resume(alpha);
+    kinematics.resume(alpha, grad);
   }
   /// Of a reference map: where what is at x came from.
   void set_map(const std::function<Vec3(const Vec3&)>& xi) {
     for (Index c = 0; c < mesh.n_cells; ++c) kinematics.set_map(c, xi(mesh.C[c]));
-    kinematics.resume(alpha);
+    kinematics.resume(alpha, grad);
   }
   void step(Real dt) {
     kinematics.mark(alpha);

@@ -231,7 +231,7 @@ TEST(Extension, CarriesAUniformTensorOutward) {
     Ball ball(box);
     Full& run = ball.full;
     for (Index c = 0; c < run.mesh.n_cells; ++c) run.kinematics.psi[c] = ball.inside[c] * psi;
-    run.kinematics.resume(run.alpha);
+    run.kinematics.resume(run.alpha, run.grad);
     CellField<Real> ring(run.mesh);
     for (Index c = 0; c < run.mesh.n_cells; ++c) ring[c] = ball.inside[c];
     for (int i = 0; i < 3; ++i) {
@@ -261,7 +261,7 @@ TEST(LogConformation, StrainOfTheFluidStaysOutside) {
       run.kinematics.psi[c] = ball.inside[c] * psi;
       run.L[c] = (1 - ball.inside[c]) * Tensor{2, 9, 0, 5, -2, 0, 0, 0, 0};
     }
-    run.kinematics.resume(run.alpha);
+    run.kinematics.resume(run.alpha, run.grad);
     run.set_phi([](const Vec3&) { return Vec3{1, 0.5, 0}; });
     run.step(0.02);
     for (Index c = 0; c < run.mesh.n_owned; ++c)

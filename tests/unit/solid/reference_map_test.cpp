@@ -195,7 +195,7 @@ TEST(MapExtension, CellsWithoutAMapStayUnknown) {
   Full run(plane(16, false, false));
   const Mesh& mesh = run.mesh;
   for (Index c = 0; c < mesh.n_cells; ++c) run.alpha[c] = mesh.C[c].x < 0.25 ? 1 : 0;
-  run.kinematics.resume(run.alpha);
+  run.kinematics.resume(run.alpha, run.grad);
   run.alpha.fill(1);
   run.step(0.01);
   for (Index c = 0; c < mesh.n_cells; ++c)
