@@ -97,8 +97,7 @@ SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) con
   });
   if (M == Tensor{}) return {};
   const Tensor K = inverse_of_moments(M, mesh_.dim);
-  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.yx, K.yy, K.yz}),
-          along(R, {K.zx, K.zy, K.zz})};
+  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.yx, K.yy, K.yz}), along(R, {K.zx, K.zy, K.zz})};
 }
 
 SymGradient Extension::borne_out(const CellField<SymGradient>& slope, Index c) const {
