@@ -174,25 +174,26 @@ TEST(Slab, OneViscosity) {
 
 TEST(Slab, InterfaceInMidCell) {
   const auto [coarse, fine] = converge({viscous}, 33, 65);
-  EXPECT_LE(fine.u, 2.5e-4);
-  EXPECT_GE(order(coarse.u, fine.u), 1.4);
-  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.1);
+  EXPECT_LE(fine.u, 1.2e-4);
+  EXPECT_LE(fine.B_xy, 5e-4);
+  EXPECT_GE(order(coarse.u, fine.u), 1.5);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.5);
 }
 
 TEST(Slab, Triangles) {
   const auto [coarse, fine] = converge({viscous, KinematicsKind::log_conformation, true}, 16, 32);
   EXPECT_LE(fine.u, 2e-4);
-  EXPECT_LE(fine.B_xy, 9e-4);
+  EXPECT_LE(fine.B_xy, 4e-4);
   EXPECT_GE(order(coarse.u, fine.u), 1.8);
-  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.5);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
 }
 
 TEST(Slab, TrianglesInMidCell) {
   const auto [coarse, fine] = converge({viscous, KinematicsKind::log_conformation, true}, 17, 33);
   EXPECT_LE(fine.u, 2e-4);
-  EXPECT_LE(fine.B_xy, 2e-3);
+  EXPECT_LE(fine.B_xy, 4e-4);
   EXPECT_GE(order(coarse.u, fine.u), 1.5);
-  EXPECT_LT(fine.B_xy, coarse.B_xy);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
 }
 
 // The interface hardly moves here, 0.18 % of the walls; the layer at it is 0.05 thick.
@@ -248,7 +249,9 @@ TEST(Slab, TwoViscositiesInMidCell) {
   for (const Real mu_s : {0.2, 5.0}) {
     const auto [coarse, fine] = converge(two(mu_s, 4), 17, 33);
     EXPECT_GE(order(coarse.u, fine.u), 1.4);
-    EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.1);
+    // with 5 of order 0.9 between these two, at a third of the error that order 1.2 had before
+    EXPECT_LE(fine.B_xy, mu_s > 1 ? 1e-3 : 2.5e-3);
+    EXPECT_GE(order(coarse.B_xy, fine.B_xy), mu_s > 1 ? 0.5 : 1.8);
   }
 }
 
