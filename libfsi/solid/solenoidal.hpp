@@ -6,28 +6,51 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/extension.hpp"
 
 namespace fsi::solid {
 
-/// Gradient at owned cell c with the flux for the normal velocity of its faces,
-///   L + (1/V) sum_f (phi_f - u_f . S_f) n (x) n,   n = S_f / |S_f|,
-/// the sum outward, u_f linear with skewness correction as in the flux itself: exact for linear
-/// fields whose flux is theirs, its trace on an orthogonal mesh div phi. L: that of the cell's
-/// neighbours too on skewed meshes.
-inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
+/// phi_f - u_f . S_f of an inner face, u_f linear with skewness correction as in the flux itself.
+/// L: set on both sides on skewed meshes.
+inline Real rest_of_flux(const Carrier& carrier, const Mesh& mesh, Index f) {
   const FaceWeights& weights = carrier.weights;
-  Tensor sum;
+  const Index P = mesh.owner[f], N = mesh.neighbour[f];
+  const Real lambda = weights.lambda[f];
+  Vec3 u_f = (1 - lambda) * carrier.u[P] + lambda * carrier.u[N];
+  if (weights.skewed)
+    u_f += (1 - lambda) * dot(carrier.L[P], weights.skew[f]) +
+           lambda * dot(carrier.L[N], weights.skew[f]);
+  return carrier.phi[f] - dot(u_f, mesh.Sf[f]);
+}
+
+/// Velocity of known cell c with what the fluxes between known cells tell besides,
+///   u + (1/V) sum_f (phi_f - u_f . S_f) r_f,   r_f from the centre along d to the face:
+/// the part of a pressure's increment that its averaged gradient leaves in u but the flux does not
+/// have. No face at the surface takes part, where u has a kink.
+inline Vec3 velocity_of_fluxes(const Carrier& carrier, const CellField<Real>& alpha,
+                               const Mesh& mesh, Index c) {
+  Vec3 sum;
   for (const Index f : mesh.cell_faces[c]) {
     if (f >= mesh.n_internal) continue;
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    const Real lambda = weights.lambda[f];
-    Vec3 u_f = (1 - lambda) * carrier.u[P] + lambda * carrier.u[N];
-    if (weights.skewed)
-      u_f += (1 - lambda) * dot(carrier.L[P], weights.skew[f]) +
-             lambda * dot(carrier.L[N], weights.skew[f]);
+    if (!(alpha[P] >= alpha_known && alpha[N] >= alpha_known)) continue;
+    const Real part = P == c ? carrier.weights.lambda[f] : 1 - carrier.weights.lambda[f];
+    sum += (part * rest_of_flux(carrier, mesh, f)) * mesh.d[f];
+  }
+  return carrier.u[c] + (1 / mesh.V[c]) * sum;
+}
+
+/// Gradient at owned cell c with the flux for the normal velocity of its faces,
+///   L + (1/V) sum_f (phi_f - u_f . S_f) n (x) n,   n = S_f / |S_f|,
+/// the sum outward: exact for linear fields whose flux is theirs, its trace on an orthogonal mesh
+/// div phi. L: that of the cell's neighbours too on skewed meshes.
+inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
+  Tensor sum;
+  for (const Index f : mesh.cell_faces[c]) {
+    if (f >= mesh.n_internal) continue;
     const Vec3& S = mesh.Sf[f];
-    const Real rest = carrier.phi[f] - dot(u_f, S);
-    sum += ((P == c ? rest : -rest) / norm2(S)) * outer(S, S);
+    const Real rest = rest_of_flux(carrier, mesh, f);
+    sum += ((mesh.owner[f] == c ? rest : -rest) / norm2(S)) * outer(S, S);
   }
   return carrier.L[c] + (1 / mesh.V[c]) * sum;
 }

@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solid/solenoidal.hpp"
 #include "libfsi/vof/motion.hpp"
 
 namespace fsi {
@@ -163,17 +164,30 @@ void Solver::advance_interface(Real t) {
   }
 }
 
+void Solver::set_L(const CellField<Vec3>& u, std::span<const Index> cells) {
+  gradient(L_, u, u_b_, u_stencil_, mesh_, cells);
+  mesh_.halo.update(L_);
+}
+
+void Solver::set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells) {
+  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
+  u.assign(state_.u);
+  for (const Index c : cells)
+    if (body_->alpha[c] >= solid::alpha_known)
+      u[c] = solid::velocity_of_fluxes(carrier, body_->alpha, mesh_, c);
+  mesh_.halo.update(u);
+}
+
 void Solver::transport_elastic() {
   const Profile::Call call(profile_, calls_.transport_elastic);
-  const bool sided = body_->sided.has_value();
-  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_, sided};
+  const bool sided = body_->sided.has_value(), by_flux = body_->strained_by_flux();
+  const CellField<Vec3>& u = by_flux ? grad_q_ : state_.u;  // grad_q: scratch here
+  const solid::Carrier carrier{state_.phi, u, L_, projection_.stencil(), weights_, sided};
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha);
-        if (!needs_L()) {
-          gradient(L_, state_.u, u_b_, u_stencil_, mesh_, k.strained());
-          mesh_.halo.update(L_);
-        }
+        if (by_flux) set_velocity_of_fluxes(grad_q_, k.strained());
+        if (by_flux || !needs_L()) set_L(u, k.strained());
         if (sided) {
           body_->reach->set(body_->interface, weights_);
           body_->sided->apply(
@@ -182,6 +196,7 @@ void Solver::transport_elastic() {
               k.strained());
         }
         body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        if (by_flux && needs_L()) set_L(state_.u, k.strained());
       },
       body_->kinematics);
   body_->weigh();

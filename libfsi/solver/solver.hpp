@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,11 @@ class Solver {
   void project(Real dt);
   void hold_mean_velocity(Real dt);
   void check();
+  /// L_ = grad u on the listed owned cells; its halo.
+  void set_L(const CellField<Vec3>& u, std::span<const Index> cells);
+  /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
+  /// (solenoidal.hpp); owned and halo.
+  void set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells);
   std::string objection(Real dt) const;
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
