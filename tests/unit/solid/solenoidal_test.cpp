@@ -55,6 +55,33 @@ TEST(Solenoidal, KeepsALinearField) {
       if (inside(mesh.C[c], mesh.dim))
         worst = std::max(worst, difference(solid::with_flux(carrier, mesh, c), exact));
     EXPECT_LE(global_max(worst), 1e-11);
+    const CellField<Real> solid_everywhere(mesh, 1);
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      EXPECT_LE(norm(solid::velocity_of_fluxes(carrier, solid_everywhere, mesh, c) - u[c]), 1e-12);
+  }
+}
+
+// Solid at x < 1/2, what is not known beyond; cell velocities that the flux does not have: gone
+// where all faces are the solid's, half of what crosses the surface stays beside it.
+TEST(Solenoidal, VelocityOfTheFluxes) {
+  for (const Index depth : {0, 6}) {
+    const Mesh mesh = test::read_box({.n = {6, 6, depth}});
+    const FaceWeights weights(mesh);
+    const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+    CellField<Real> alpha(mesh);
+    CellField<Vec3> u(mesh, {9, 9, 9});
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (mesh.C[c].x < 0.5) alpha[c] = 1, u[c] = {2, 4, mesh.dim == 3 ? 6.0 : 0.0};
+    const FaceField<Real> phi(mesh);  // at rest
+    const CellField<Tensor> L(mesh);
+    const solid::Carrier carrier{phi, u, L, stencil, weights};
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (!inside(mesh.C[c], mesh.dim) || alpha[c] == 0) continue;
+      const bool at_surface = std::abs(mesh.C[c].x - 0.5) < 0.1;
+      EXPECT_LE(norm(solid::velocity_of_fluxes(carrier, alpha, mesh, c) -
+                     Vec3{at_surface ? 1.0 : 0.0, 0, 0}),
+                1e-12);
+    }
   }
 }
 
