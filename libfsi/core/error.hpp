@@ -36,7 +36,7 @@ inline void require(bool ok, const std::string& sentence) {
 std::string petsc_text(int code);
 
 /// Throws for a failed PETSc call: Error{input} where a word of the user caused it (no such solver,
-/// not a number), else Error{internal} that names the call.
+/// one that cannot do what is asked, not a number), else Error{internal} that names the call.
 [[noreturn]] void petsc_failed(int code, const char* call, const char* file, int line);
 
 }  // namespace fsi

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -66,6 +67,24 @@ std::string text_of(const std::string& file) {
   return text;
 }
 
+/// Says that a petscrc of the folder takes part, which nobody sees on the command line.
+void tell_of_petscrc() {
+  const auto given = [](const char* name) {
+    PetscBool found = PETSC_FALSE;
+    FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, name, &found));
+    return found == PETSC_TRUE;
+  };
+  int mine = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &mine);
+  if (given("-skip_petscrc") || mine != 0) return;
+  for (const char* file : {".petscrc", "petscrc"})
+    if (std::filesystem::exists(file))
+      std::fprintf(stderr,
+                   "fsi: notice: the options in \"%s\" are taken as well; -skip_petscrc "
+                   "leaves them out\n",
+                   file);
+}
+
 /// Gives PETSc its options: petscrc, PETSC_OPTIONS, options file, command line; the last wins.
 void start_petsc(Arguments& arguments) {
   const std::string fault = fault_of(arguments);
@@ -86,6 +105,7 @@ void start_petsc(Arguments& arguments) {
           "options file \"" + arguments.file + "\" is not valid YAML: " + petsc_text(code));
   require(code == 0, "the options cannot be read: " + petsc_text(code));
   FSI_PETSC(PetscPopSignalHandler());
+  tell_of_petscrc();
   if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));
 }
 

@@ -9,6 +9,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/linear_system_multigrid.hpp"
+#include "libfsi/operators/linear_system_options.hpp"
 
 namespace fsi {
 
@@ -137,6 +138,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   set_defaults(name + "_", method, h.solver);
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
+  check_solver_options(name + "_");
   FSI_PETSC(KSPSetFromOptions(h.solver));
   h.cycle = method == Method::multigrid && !given("-" + name + "_pc_type");
 }

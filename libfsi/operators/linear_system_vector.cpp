@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/linear_system_options.hpp"
 
 namespace fsi {
 
@@ -144,6 +145,7 @@ VectorSystem::VectorSystem(const Mesh& mesh, const std::string& name, Real relat
   FSI_PETSC(KSPGetPC(h.solver, &pc));
   FSI_PETSC(PCSetType(pc, PCJACOBI));
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+  check_solver_options(name + "_");
   FSI_PETSC(KSPSetFromOptions(h.solver));
   PCType type = nullptr;
   FSI_PETSC(PCGetType(pc, &type));

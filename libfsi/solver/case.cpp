@@ -57,6 +57,9 @@ TimeSetup read_time(Options& options) {
       {.help = "first step, from which the next ones grow by a tenth each; 0: none of that",
        .unit = "time",
        .min = 0});
+  for (const auto& [name, other] : {std::pair{"max", time.step_max}, {"first", time.step_first}})
+    require(time.step == 0 || other == 0, std::string("options -time_step and -time_step_") + name +
+                                              ": a fixed step has no other; give one of them");
   return time;
 }
 
