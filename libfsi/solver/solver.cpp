@@ -104,8 +104,8 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   if (mu_varies()) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
-      two_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
-    if (two_) momentum_.hold_past();
+      two_viscosities_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+    if (two_viscosities_) momentum_.hold_past();
   }
   mix_viscosity();
   hold_backup();
@@ -228,11 +228,11 @@ void Solver::stiffen(Real dt) {
                                 dt,
                                 !map,
                                 body_->sided.has_value(),
-                                two_ ? &two_->normal : nullptr};
+                                two_viscosities_ ? &two_viscosities_->normal : nullptr};
   body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
-  if (!two_) return;
-  two_->stiff.assign(kappa_);
-  two_->traction.stiffen(two_->stiff, body_->alpha_f, body_->band);
+  if (!two_viscosities_) return;
+  two_viscosities_->stiff.assign(kappa_);
+  two_viscosities_->traction.stiffen(two_viscosities_->stiff, body_->alpha_f, body_->band);
 }
 
 void Solver::set_elastic_force() {
@@ -241,14 +241,15 @@ void Solver::set_elastic_force() {
                                  body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
-  if (two_) {
-    vof::cell_plane(two_->normal, two_->height, body_->alpha, body_->interface, mesh_,
-                    body_->band.cells());
-    mesh_.halo.update(two_->normal);
-    two_->traction.apply(force_, balance_,
-                         {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
-                          two_->normal, two_->height, mu_},
-                         weights_, projection_.stencil(), body_->band);
+  if (two_viscosities_) {
+    vof::cell_plane(two_viscosities_->normal, two_viscosities_->height, body_->alpha,
+                    body_->interface, mesh_, body_->band.cells());
+    mesh_.halo.update(two_viscosities_->normal, body_->band.listed());
+    two_viscosities_->traction.apply(
+        force_, balance_,
+        {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
+         two_viscosities_->normal, two_viscosities_->height, mu_},
+        weights_, projection_.stencil(), body_->band);
   }
   solid::clear_negligible(balance_, physics_.G, body_->band);
   if (body_force_)

@@ -156,7 +156,9 @@ class Solver {
     return weights_.skewed || weights_.non_orthogonal || mu_varies() || (body_ && body_->sided);
   }
   /// What the momentum equation takes implicitly besides the viscosity.
-  const FaceField<Real>& implicit() const { return two_ ? two_->stiff : kappa_; }
+  const FaceField<Real>& implicit() const {
+    return two_viscosities_ ? two_viscosities_->stiff : kappa_;
+  }
   bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
   Real elastic_time() const;
   void hold_backup();
@@ -193,8 +195,8 @@ class Solver {
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;
-  std::optional<solid::BodyForce> body_force_;  // where there is one
-  std::optional<TwoViscosities> two_;           // where they differ
+  std::optional<solid::BodyForce> body_force_;     // where there is one
+  std::optional<TwoViscosities> two_viscosities_;  // where they differ
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step

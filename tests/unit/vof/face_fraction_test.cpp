@@ -95,6 +95,27 @@ TEST(FaceNormal, OfThePlanesOrOfTheFace) {
   }
 }
 
+// The plane of the cell itself; where the surface lies in faces, those of the cells beside it.
+TEST(CellPlane, OfTheCellOrOfItsFaces) {
+  HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, 0.5, 0});
+  std::vector<Index> cells;
+  for (Index c = 0; c < s.mesh.n_owned; ++c) cells.push_back(c);
+  CellField<Vec3> normal(s.mesh);
+  CellField<Real> height(s.mesh);
+  const auto expect_plane = [&](bool everywhere) {
+    cell_plane(normal, height, s.alpha, s.interface, s.mesh, cells);
+    for (const Index c : cells) {
+      const Real above = s.mesh.C[c].y - 0.5;
+      const bool known = everywhere || std::abs(above) < 1.0 / 8;
+      EXPECT_LE(norm(normal[c] - (known ? s.n : Vec3{})), 1e-14);
+      EXPECT_NEAR(height[c], known ? above : 0, 1e-14);
+    }
+  };
+  expect_plane(true);
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.interface.piece[c] = {};
+  expect_plane(false);
+}
+
 // Without a plane the interface lies on the face.
 TEST(FaceFraction, WithoutPlanes) {
   HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, 0.5, 0});
