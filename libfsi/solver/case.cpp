@@ -122,7 +122,8 @@ std::string simulated(const Options& options) {
   std::string text;
   for (const auto& [name, value] : options.values()) {
     const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
-    if (std::ranges::none_of(not_simulated, begins)) text += name + " " + value + "\n";
+    if (std::ranges::none_of(not_simulated, begins))
+      text.append(name).append(" ").append(value).append("\n");
   }
   return text;
 }
