@@ -39,26 +39,31 @@ void check_type(const std::string& name, PetscFunctionList list) {
   require(found, sentence(name, *text) + "there are: " + all);
 }
 
-/// least < value < most
-void check_number(const std::string& name, double least, double most, const std::string& range) {
+/// Whether the option, where it is given, is a number that `valid` takes.
+template <class Valid>
+void check_number(const std::string& name, const Valid& valid, const std::string& range) {
   const auto text = given(name);
   if (!text) return;
   char* end = nullptr;
   const double value = std::strtod(text->c_str(), &end);
-  const bool whole = !text->empty() && *end == '\0';
-  require(whole && value > least && value < most, sentence(name, *text) + "expected " + range);
+  const bool number = !text->empty() && *end == '\0' && std::isfinite(value);
+  require(number && valid(value), sentence(name, *text) + "expected " + range);
 }
 
 }  // namespace
 
 void check_solver_options(const std::string& prefix) {
-  constexpr double any = 1e300;
   check_type(prefix + "ksp_type", KSPList);
   check_type(prefix + "pc_type", PCList);
-  check_number(prefix + "ksp_rtol", 0, 1, "0 < value < 1");
-  check_number(prefix + "ksp_atol", 0, any, "value > 0");
-  check_number(prefix + "ksp_divtol", 1, any, "value > 1");
-  check_number(prefix + "ksp_max_it", 0, 1e9, "a whole number, value >= 1");
+  check_number(
+      prefix + "ksp_rtol", [](double v) { return v > 0 && v < 1; }, "0 < value < 1");
+  check_number(
+      prefix + "ksp_atol", [](double v) { return v >= 0; }, "value >= 0");
+  check_number(
+      prefix + "ksp_divtol", [](double v) { return v > 1; }, "value > 1");
+  check_number(
+      prefix + "ksp_max_it", [](double v) { return v >= 1 && v < 1e9 && v == std::floor(v); },
+      "a whole number, value >= 1");
 }
 
 }  // namespace fsi
