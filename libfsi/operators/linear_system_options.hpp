@@ -5,9 +5,9 @@
 
 namespace fsi {
 
-/// Whether the options of the solver `prefix` ("p_", "u_") are ones it can work with: its types
-/// exist, tolerances lie between 0 and 1, it may take at least one iteration. Errors: Error{input}
-/// that names the option, its value and what is valid.
+/// Looks at what the user says to the solver `prefix` ("p_", "u_"): whether its types exist, the
+/// relative tolerance lies between 0 and 1, the absolute one is not negative and it may take at
+/// least one iteration. Errors: Error{input} that names the option, its value and what is valid.
 void check_solver_options(const std::string& prefix);
 
 }  // namespace fsi
