@@ -26,6 +26,12 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
               std::span<const Index> cells);
 
+/// The boundary where the solid touches it.
+struct Contact {
+  const BoundaryField<Vec3>& u_b;
+  const BoundaryField<char>& touched;  ///< 1 on faces that the solid touches, openings apart
+};
+
 /// The flow, frozen over a step of the solid.
 struct Carrier {
   const FaceField<Real>& phi;
@@ -34,6 +40,7 @@ struct Carrier {
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
   bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
+  const Contact* contact = nullptr;  ///< none: nowhere
 };
 
 }  // namespace fsi::solid

@@ -9,6 +9,16 @@ namespace {
 
 constexpr Real near_zone = 1, inner_zone = 2, surrounded_zone = 3;
 
+/// How many faces of a cell have a known cell behind them.
+int known_faces(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
+  int count = 0;
+  for (const Index f : mesh.cell_faces[c])
+    if (f < mesh.n_internal &&
+        alpha[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known)
+      ++count;
+  return count;
+}
+
 /// The zone of a known cell.
 Real zone(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   bool wall = false;
@@ -51,7 +61,10 @@ Extension::Extension(const Mesh& mesh)
 void Extension::mark(const CellField<Real>& alpha, const Band& known) {
   for (const Index c : set_) ring_of_[c] = 0;
   last_set_.swap(set_);
-  set_ = known.core();
+  set_.clear();
+  alone_.clear();
+  for (const Index c : known.core())
+    (known_faces(c, alpha, mesh_) > 0 ? set_ : alone_).push_back(c);
   end_[0] = set_.size();
   for (const Index c : set_) ring_of_[c] = 1;
   mesh_.halo.update(ring_of_);
@@ -148,6 +161,8 @@ void Extension::linear(CellField<SymTensor>& T, CellField<SymGradient>& slope) {
   }
   for (const Index c : set_) slope[c] = {};
   for (const Index c : last_set_)
+    if (ring_of_[c] == 0) T[c] = {};
+  for (const Index c : alone_)
     if (ring_of_[c] == 0) T[c] = {};
 }
 

@@ -23,9 +23,10 @@ inline constexpr Real alpha_known = 0.5;
 ///
 /// g of a known cell: least squares over its known vertex neighbours, times the part of it that
 /// the mean m over the surrounded ones among them bears out, (g : m) / (g : g) within [0, 1].
-/// Surrounded: the face neighbours are all known and no face is of the boundary. Exact for a linear
-/// T but where the solid is thin, which goes on as a constant; what alternates from cell to cell is
-/// not extrapolated.
+/// A cell with no known one behind any of its faces counts as not known: the strain of such a speck
+/// is told by nothing and would grow without bound. Surrounded: the face neighbours are all known
+/// and no face is of the boundary. Exact for a linear T but where the solid is thin, which goes on
+/// as a constant; what alternates from cell to cell is not extrapolated.
 class Extension {
  public:
   explicit Extension(const Mesh& mesh);
@@ -65,7 +66,7 @@ class Extension {
   const Mesh& mesh_;
   CellField<Real> zone_;     // 1: near, 2: inner, 3: and away from the boundary
   CellField<Real> ring_of_;  // 1: known, 2 to 4: of a ring; 0: neither
-  std::vector<Index> set_, last_set_, near_;
+  std::vector<Index> set_, last_set_, near_, alone_;
   std::array<std::size_t, rings + 1> end_{};  // in set_, of the known cells and of each ring
   std::vector<SymGradient> slopes_;
   std::vector<std::int32_t> stamp_;

@@ -41,6 +41,10 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
+  const auto u_at = [&](Index f) -> const Vec3* {
+    const Index b = f - mesh_.n_internal;
+    return carrier.contact && carrier.contact->touched[b] ? &carrier.contact->u_b[b] : nullptr;
+  };
   L_.clear();
   for (const Index c : known_.core()) {
     if (carrier.sided) {
@@ -48,7 +52,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier
     } else if (extension_.inner(c)) {
       L_.push_back(with_flux(carrier, mesh_, c));
     } else {
-      const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, mesh_, c);
+      const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, u_at, mesh_, c);
       L_.push_back(without_trace(L, alpha, mesh_, c));
     }
   }

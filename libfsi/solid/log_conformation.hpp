@@ -36,7 +36,8 @@ class LogConformation {
   /// scratch.
   void resume(const CellField<Real>& alpha, CellField<SymGradient>& grad);
 
-  /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
+  /// Collective. Lists the cells that `transport` works on. alpha: what tells which cells
+  /// know their strain.
   void mark(const CellField<Real>& alpha) {
     known_.rebuild(alpha, alpha_known);
     extension_.mark(alpha, known_);

@@ -59,7 +59,11 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
     const Real a_f = (*solid.alpha_f)[f];
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
-      force[P] += (a_f / mesh_.V[P]) * dot(G_ * dev(B[P] + along(grad[P], d)), S);
+      // tau_b = tau_P + grad tau . d
+      const SymTensor tau = G_ * dev(B[P] + along(grad[P], d));
+      const Vec3& m = (*solid.normal)[f];
+      const Real s = dot(m, dot(tau, m));
+      force[P] += (1 / mesh_.V[P]) * (a_f * dot(tau, S) + ((alpha[P] - a_f) * s) * S);
       continue;
     }
     const Index N = mesh_.neighbour[f];

@@ -2,11 +2,10 @@
 // The divergence that cell velocities keep, taken out of the velocity gradient that strains a
 // solid.
 
-#include <cmath>
-
 #include "libfsi/field/field.hpp"
 #include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/towards.hpp"
 
 namespace fsi::solid {
 
@@ -56,21 +55,13 @@ inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
 }
 
 /// L of a cell at the surface with its trace taken out along the normal,
-///   L - tr(L) n (x) n,   n along sum_k (alpha_k - alpha_c) d_k / |d_k|^2 over vertex neighbours:
+///   L - tr(L) n (x) n,   n that of `towards_solid`:
 /// what differs along the surface is continuous and smooth, div u = 0 gives the rest. L itself
 /// where the solid is alike on all sides.
 inline Tensor without_trace(const Tensor& L, const CellField<Real>& alpha, const Mesh& mesh,
                             Index c) {
-  Vec3 n;
-  Real size = 0;
-  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
-    const Index k = mesh.cell_neighbours.index[i];
-    const Vec3 d = mesh.C[k] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[i]];
-    n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
-    size += std::abs(alpha[k] - alpha[c]) / norm(d);
-  }
-  constexpr Real alike = 1e-6;
-  return norm(n) > alike * size ? L + (-trace(L) / norm2(n)) * outer(n, n) : L;
+  const Vec3 n = towards_solid(alpha, mesh, c);
+  return n == Vec3{} ? L : L + (-trace(L)) * outer(n, n);
 }
 
 }  // namespace fsi::solid

@@ -112,9 +112,11 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
   const auto inner = [&](Index c) { return uncut(surface.alpha[c]) && touch_[c] == 0; };
   const auto none = [](Index) { return false; };
   for (const Index c : band.cells()) {
-    if (touch_[c] > 1) L_in_[c] = one_sided_gradient(surface.L, surface.u, same, inner, mesh_, c);
+    if (touch_[c] > 1)
+      L_in_[c] = one_sided_gradient(surface.L, surface.u, same, inner, nowhere, mesh_, c);
     if (touch_[c] == 0 || !known(c) || mu_least_ == mu_.solid) continue;
-    own_[c] = twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, mesh_, c));
+    own_[c] =
+        twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, nowhere, mesh_, c));
     has_own_[c] = 1;
   }
   if (mu_least_ == mu_.solid) return;

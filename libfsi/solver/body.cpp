@@ -18,10 +18,12 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
     : mesh(mesh_),
       weights(weights_),
       alpha(mesh),
+      alpha_mid(mesh),
       B(mesh),
       alpha_f(mesh),
       normal_f(mesh),
       lambda(mesh),
+      touched(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),
       advect_scratch(mesh),
@@ -33,6 +35,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       filled(vof::fill(alpha, mesh, shape)) {
   if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh))
     sided.emplace(mesh), reach.emplace(mesh);
+  alpha_mid.assign(alpha);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
 }
@@ -72,8 +75,18 @@ void Body::weigh() {
   mesh.halo.update(lambda, band.listed());
 }
 
+void Body::set_touched(std::span<const Index> cells, std::span<const char> open) {
+  for (const Index c : cells)
+    for (const Index f : mesh.cell_faces[c]) {
+      if (f < mesh.n_internal) continue;
+      const Index b = f - mesh.n_internal;
+      touched[b] = open[b] == 0 && vof::touches(f, alpha, interface, mesh) ? 1 : 0;
+    }
+}
+
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
+  if (strained_by_flux()) snapshot.add("alpha_mid", alpha_mid);
   snapshot.add("solid_t", &t);
   snapshot.add("solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
@@ -86,7 +99,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
-  std::visit([&](auto& k) { k.resume(alpha, grad); }, kinematics);
+  std::visit([&](auto& k) { k.resume(alpha_strained(), grad); }, kinematics);
   weigh();
 }
 

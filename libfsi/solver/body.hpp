@@ -45,8 +45,15 @@ struct Body {
   void list(io::Snapshot& snapshot);
   /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
   void weigh();
+  /// Sets `touched` on the faces of the listed owned cells. open: 1 on faces of openings.
+  void set_touched(std::span<const Index> cells, std::span<const char> open);
   /// Whether elasticity may be treated implicitly: the paper's scheme does not.
   bool semi_implicit() const { return extended(); }
+  /// Whether the jump of the pressure goes on with the surface. With a reference map it does not:
+  /// its own error in dt takes off a part of what that mends (doc/verification/torus.md).
+  bool carries_pressure() const {
+    return std::holds_alternative<solid::LogConformation>(kinematics);
+  }
   /// Whether the face flux takes part in the solid's strain.
   bool strained_by_flux() const {
     return !sided && std::holds_alternative<solid::LogConformation>(kinematics);
@@ -59,6 +66,10 @@ struct Body {
   Real elastic_number() const {
     return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
   }
+  /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
+  /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches
+  /// in the second half has the fluid's, and its L an error of (Co / 2) times the jump.
+  const CellField<Real>& alpha_strained() const { return strained_by_flux() ? alpha_mid : alpha; }
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
@@ -70,15 +81,17 @@ struct Body {
 
   const Mesh& mesh;
   const FaceWeights& weights;
-  CellField<Real> alpha;     ///< volume fraction of the solid
-  CellField<SymTensor> B;    ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;   ///< part of solid at the band's faces
-  FaceField<Vec3> normal_f;  ///< of the interface there, zero away from it; where B is extended
-  CellField<Real> lambda;    ///< largest eigenvalue of B; owned and halo
-  Real t = 0;                ///< time of alpha and B
-  solid::Strain strain;      ///< in the last step
-  Real eigenvalue_min = 1;   ///< of B on this rank
-  vof::Interface interface;  ///< planes of alpha
+  CellField<Real> alpha;        ///< volume fraction of the solid
+  CellField<Real> alpha_mid;    ///< mean of it and of that before the last step
+  CellField<SymTensor> B;       ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;      ///< part of solid at the band's faces
+  FaceField<Vec3> normal_f;     ///< of the interface there, zero away from it; where B is extended
+  CellField<Real> lambda;       ///< largest eigenvalue of B; owned and halo
+  BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, openings apart
+  Real t = 0;                   ///< time of alpha and B
+  solid::Strain strain;         ///< in the last step
+  Real eigenvalue_min = 1;      ///< of B on this rank
+  vof::Interface interface;     ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;
   vof::AdvectScratch advect_scratch;
   Band band;  ///< of the cells that carry stress

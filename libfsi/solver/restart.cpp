@@ -8,9 +8,13 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("u", state_.u);
   snapshot.add("p", state_.p);
   snapshot.add("phi", state_.phi);
-  snapshot.add("momentum_history", momentum_.history());
+  auto& [last, before, rest] = momentum_.history();
+  snapshot.add("convection", last);
+  snapshot.add("convection_before", before);
+  snapshot.add("viscous_rest", rest);
   if (auto& past = momentum_.past()) snapshot.add("momentum_past", past->u, "u");
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
+  snapshot.add("momentum_dt_before", &momentum_.dt_before);
   snapshot.add("momentum_steps", &momentum_.steps_taken);
   snapshot.add("dt_cap", &dt_cap_);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);

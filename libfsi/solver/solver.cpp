@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solid/carried_pressure.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 #include "libfsi/vof/motion.hpp"
 
@@ -21,18 +22,12 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
   return std::vector<bool>(conditions.size(), true);  // zero-gradient values count as well
 }
 
-/// (1 / 2V) sum |phi| of a cell.
-Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
-  Real sum = 0;
-  for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
-  return sum / (2 * mesh.V[c]);
-}
-
 }  // namespace
 
 Solver::Calls::Calls(Profile& profile)
     : update_gradients(profile.add("update_gradients", "momentum")),
       advance_interface(profile.add("advance_interface", "vof")),
+      carry_pressure(profile.add("carry_pressure", "solid")),
       transport_elastic(profile.add("transport_elastic", "solid")),
       mix_viscosity(profile.add("mix_viscosity", "solid")),
       set_elastic_force(profile.add("set_elastic_force", "solid")),
@@ -112,10 +107,13 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
 }
 
 void Solver::step(Real dt) {
-  update_gradients();  // grad p^n, L^n
   if (body_) {
     advance_interface(state_.t + body_->ahead() * dt);  // d alpha/dt + div(alpha u) = 0
                                                         //            [Matsumiya25] (5)
+    carry_pressure();  // p^n's jump goes with it                     carried_pressure.hpp
+  }
+  update_gradients();  // grad p^n, L^n
+  if (body_) {
     transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
                           // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
                           // or d xi/dt + u . grad xi = 0             [Kamrin12]
@@ -141,8 +139,9 @@ void Solver::update_gradients() {
 
 void Solver::synchronise() {
   if (!body_ || body_->t == state_.t) return;
-  update_gradients();
   advance_interface(state_.t);
+  carry_pressure();
+  update_gradients();
   transport_elastic();
 }
 
@@ -150,6 +149,7 @@ void Solver::advance_interface(Real t) {
   const Profile::Call call(profile_, calls_.advance_interface);
   solid_dt_ = t - body_->t;
   body_->t = t;
+  body_->alpha_mid.assign(body_->alpha);
   // A flux follows the plane of one cell, for a part of the step in which the surface stays in it:
   // in whole steps the way of a thin curved body depends on dt (doc/theory/interface.md).
   constexpr Real courant = 0.2, parts_max = 10;
@@ -162,6 +162,16 @@ void Solver::advance_interface(Real t) {
                                     solid_dt_ / parts, mesh_, body_->advect_scratch));
     vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
   }
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    body_->alpha_mid[c] = (body_->alpha_mid[c] + body_->alpha[c]) / 2;
+}
+
+void Solver::carry_pressure() {
+  const Profile::Call call(profile_, calls_.carry_pressure);
+  if (!body_->carries_pressure()) return;
+  solid::carry_pressure(state_.p, body_->alpha_mid, body_->alpha, body_->B, physics_.G, mesh_,
+                        body_->band.cells());
+  mesh_.halo.update(state_.p);
 }
 
 void Solver::set_L(const CellField<Vec3>& u, std::span<const Index> cells) {
@@ -173,8 +183,8 @@ void Solver::set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> c
   const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
   u.assign(state_.u);
   for (const Index c : cells)
-    if (body_->alpha[c] >= solid::alpha_known)
-      u[c] = solid::velocity_of_fluxes(carrier, body_->alpha, mesh_, c);
+    if (body_->alpha_mid[c] >= solid::alpha_known)
+      u[c] = solid::velocity_of_fluxes(carrier, body_->alpha_mid, mesh_, c);
   mesh_.halo.update(u);
 }
 
@@ -182,10 +192,12 @@ void Solver::transport_elastic() {
   const Profile::Call call(profile_, calls_.transport_elastic);
   const bool sided = body_->sided.has_value(), by_flux = body_->strained_by_flux();
   const CellField<Vec3>& u = by_flux ? grad_q_ : state_.u;  // grad_q: scratch here
-  const solid::Carrier carrier{state_.phi, u, L_, projection_.stencil(), weights_, sided};
+  const solid::Contact contact{u_b_, body_->touched};
+  const solid::Carrier carrier{state_.phi, u, L_, projection_.stencil(), weights_, sided, &contact};
   std::visit(
       [&](auto& k) {
-        k.mark(body_->alpha);
+        k.mark(body_->alpha_strained());
+        body_->set_touched(k.strained(), momentum_.open_face());
         if (by_flux) set_velocity_of_fluxes(grad_q_, k.strained());
         if (by_flux || !needs_L()) set_L(u, k.strained());
         if (sided) {
@@ -195,7 +207,7 @@ void Solver::transport_elastic() {
               {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
               k.strained());
         }
-        body_->strain = k.transport(body_->alpha, carrier, solid_dt_, body_->grad);
+        body_->strain = k.transport(body_->alpha_strained(), carrier, solid_dt_, body_->grad);
         if (by_flux && needs_L()) set_L(state_.u, k.strained());
       },
       body_->kinematics);
@@ -313,7 +325,7 @@ void Solver::check() {
 Real Solver::advective_dt(Real courant) const {
   Real rate = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c)
-    rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+    rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
@@ -322,7 +334,7 @@ Real Solver::carried_dt() const {
   Real rate = 0;
   if (body_)
     for (const Index c : body_->band.cells())
-      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+      rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   // body.t + solid_dt = t + ahead dt
   return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()

@@ -133,6 +133,7 @@ class Solver {
  private:
   void update_gradients();
   void advance_interface(Real t);
+  void carry_pressure();
   void transport_elastic();
   void mix_viscosity();
   void set_elastic_force();
@@ -165,8 +166,9 @@ class Solver {
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
-    int update_gradients, advance_interface, transport_elastic, mix_viscosity, set_elastic_force,
-        stiffen, predict_momentum, predict_flux, project, hold_mean_velocity, check;
+    int update_gradients, advance_interface, carry_pressure, transport_elastic, mix_viscosity,
+        set_elastic_force, stiffen, predict_momentum, predict_flux, project, hold_mean_velocity,
+        check;
   };
 
   /// What the surface between two viscosities needs.

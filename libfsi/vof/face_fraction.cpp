@@ -42,7 +42,8 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
   for (const Index f : faces) {
     const Index P = mesh.owner[f];
     if (f >= mesh.n_internal) {
-      alpha_f[f] = alpha[P];
+      const Piece& p = interface.piece[P];
+      alpha_f[f] = p.area > 0 ? swept_part(mesh, f, P, p, dot(p.n_hat, mesh.d[f]), 0) : alpha[P];
       continue;
     }
     const Index N = mesh.neighbour[f];
@@ -59,6 +60,12 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
     }
     alpha_f[f] = planes > 0 ? sum / planes : alpha[P] + lambda * (alpha[N] - alpha[P]);
   }
+}
+
+bool touches(Index f, const CellField<Real>& alpha, const Interface& interface, const Mesh& mesh) {
+  const Index P = mesh.owner[f];
+  const Piece& p = interface.piece[P];
+  return p.area > 0 ? dot(p.n_hat, mesh.face_centre(f, P) - p.centre) < 0 : alpha[P] >= 0.5;
 }
 
 void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,
@@ -97,8 +104,13 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
                  const Mesh& mesh, std::span<const Index> faces) {
   for (const Index f : faces) {
-    if (f >= mesh.n_internal) continue;
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Index P = mesh.owner[f];
+    if (f >= mesh.n_internal) {
+      const Piece& p = interface.piece[P];
+      normal[f] = p.area > 0 ? p.n_hat : Vec3{};
+      continue;
+    }
+    const Index N = mesh.neighbour[f];
     const Piece &p = interface.piece[P], &q = interface.piece[N];
     if (!(p.area > 0) && !(q.area > 0)) {
       const Real out = alpha[P] > alpha[N] ? 1 : -1;

@@ -17,8 +17,9 @@ Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Rea
 /// alpha_f: the part of solid between the centres of the two cells of a face, in the prism that the
 /// face sweeps along d, through which a flux over this distance passes. From the plane of a cell,
 /// the mean of both where both have one; without any, alpha_f = (1 - lambda) alpha_P + lambda
-/// alpha_N: what interface there is lies on the face. Boundary faces: alpha of the cell. Sets the
-/// listed faces. alpha, interface: owned and halo.
+/// alpha_N: what interface there is lies on the face. Boundary faces: between the cell's centre and
+/// the face; without a plane alpha of the cell. Sets the listed faces. alpha, interface: owned and
+/// halo.
 void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces);
@@ -28,12 +29,16 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
 void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,
                 const Interface& interface, const Mesh& mesh, std::span<const Index> cells);
 
+/// Whether the solid touches the boundary at the centre of boundary face f: whether that lies
+/// behind the plane of the face's cell P; without a plane, whether alpha_P >= 1/2.
+bool touches(Index f, const CellField<Real>& alpha, const Interface& interface, const Mesh& mesh);
+
 /// alpha_f = (1 - lambda) alpha_P + lambda alpha_N on the listed faces, whatever the planes.
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
-/// Unit normal out of the solid at the listed internal faces, between those of the planes of the
-/// two cells; zero between opposed ones. Without planes: that of the face where the surface lies in
-/// it, zero elsewhere.
+/// Unit normal out of the solid at the listed faces, between those of the planes of the two cells;
+/// zero between opposed ones. Without planes: that of the face where the surface lies in it, zero
+/// elsewhere. Boundary faces: that of the cell's plane.
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
                  const Mesh& mesh, std::span<const Index> faces);
 

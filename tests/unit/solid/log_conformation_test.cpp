@@ -288,13 +288,14 @@ TEST(OneSided, GradientOfTheKnownSide) {
       if (inner(c)) field[c] = solid;
     for (Index c = 0; c < mesh.n_owned; ++c) {
       if (!known(c)) continue;
-      const Tensor L = solid::one_sided_gradient(field, u, known, inner, mesh, c);
+      const Tensor L = solid::one_sided_gradient(field, u, known, inner, solid::nowhere, mesh, c);
       EXPECT_LE(std::abs(L.xx - 1) + std::abs(L.xy - 2), 1e-12);
       EXPECT_LE(std::abs(L.yx - 0.5) + std::abs(L.yy + 1), 1e-12);
       EXPECT_EQ(L.xz, field[c].xz);  // nothing spreads along z
     }
     const auto none = [](Index) { return false; };
-    EXPECT_EQ(solid::one_sided_gradient(field, u, none, none, mesh, 0).xx, field[0].xx);
+    EXPECT_EQ(solid::one_sided_gradient(field, u, none, none, solid::nowhere, mesh, 0).xx,
+              field[0].xx);
   }
 }
 

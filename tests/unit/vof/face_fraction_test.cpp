@@ -77,6 +77,21 @@ TEST(FaceFraction, ObliquePlane) {
   }
 }
 
+// Between the centre of a cell and the wall beside it; whether the solid reaches the wall.
+TEST(FaceFraction, FilmAtAWall) {
+  HalfSpace s({.n = {8, 8, 0}}, {0, -1, 0}, {0, 0.03, 0});
+  for (Index f = s.mesh.n_internal; f < s.mesh.n_faces; ++f) {
+    const Vec3& x = s.mesh.Cf[f];
+    const bool bottom = x.y < 1e-9, low = x.y < 0.125;
+    const Real part = bottom ? (0.0625 - 0.03) / 0.0625 : low ? (0.125 - 0.03) / 0.125 : 1;
+    EXPECT_NEAR(s.alpha_f[f], part, 1e-13);
+    EXPECT_EQ(touches(f, s.alpha, s.interface, s.mesh), !bottom);
+  }
+  for (Index c = 0; c < s.mesh.n_cells; ++c) s.interface.piece[c] = {};
+  for (Index f = s.mesh.n_internal; f < s.mesh.n_faces; ++f)
+    EXPECT_EQ(touches(f, s.alpha, s.interface, s.mesh), s.alpha[s.mesh.owner[f]] == 1);
+}
+
 // Between planes their own normal; where the surface lies in a face, that of the face; elsewhere
 // none.
 TEST(FaceNormal, OfThePlanesOrOfTheFace) {

@@ -247,11 +247,11 @@ TEST(Slab, TwoViscositiesShortSteps) {
 
 TEST(Slab, TwoViscositiesInMidCell) {
   for (const Real mu_s : {0.2, 5.0}) {
-    const auto [coarse, fine] = converge(two(mu_s, 4), 17, 33);
+    // with 5 the error at 17 is as small by chance
+    const auto [coarse, fine] = converge(two(mu_s, 4), mu_s > 1 ? 33 : 17, mu_s > 1 ? 65 : 33);
+    EXPECT_LE(fine.B_xy, mu_s > 1 ? 1.2e-4 : 1.6e-3);
     EXPECT_GE(order(coarse.u, fine.u), 1.4);
-    // with 5 of order 0.9 between these two, at a third of the error that order 1.2 had before
-    EXPECT_LE(fine.B_xy, mu_s > 1 ? 1e-3 : 2.5e-3);
-    EXPECT_GE(order(coarse.B_xy, fine.B_xy), mu_s > 1 ? 0.5 : 1.8);
+    EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
   }
 }
 

@@ -1,0 +1,52 @@
+#!/usr/bin/python3
+"""The soft torus in the periodic pipe with long and with short time steps.
+
+    torus_steps.py DRIVER CASE MESH FOLDER
+
+Runs to t = 10 at Courant numbers 0.5 and 0.1. They must end at the same place to 0.5 % of the pipe's
+diameter and at the same angle to a degree, and the first take a quarter of the steps of the second at most.
+"""
+import csv
+import json
+import os
+import subprocess
+import sys
+
+
+def run(driver, case, mesh, folder, courant):
+    out = os.path.join(folder, f"torus_{courant}")
+    subprocess.run([driver, case, "-mesh", mesh, "-output_dir", out, "-output_interval", "0",
+                    "-sample_interval", "0.1", "-time_courant", courant], check=True,
+                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    with open(os.path.join(out, "solid.csv"), encoding="utf-8") as file:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    print(f"Co {courant}: {summary['steps']} steps, {summary['rejected_steps']} rejected, "
+          f"{summary['us_per_cell_step']:.2f} us a cell and step")
+    return rows, summary
+
+
+def main():
+    (long, few), (short, many) = [run(*sys.argv[1:5], courant) for courant in ("0.5", "0.1")]
+    at = {round(row["t"], 6): row for row in short}
+    apart = {}
+    for row in long:
+        other = at.get(round(row["t"], 6))
+        if other is None or round(row["t"], 6) % 2 != 0:
+            continue
+        apart = {name: abs(row[name] - other[name]) for name in ("x", "y", "z", "angle")}
+        print(f"t = {row['t']:g}: x {row['x']:.4f} {other['x']:.4f}, y {row['y']:.4f} {other['y']:.4f}, "
+              f"angle {row['angle']:.2f} {other['angle']:.2f}, apart " +
+              ", ".join(f"{name} {value:.5f}" for name, value in apart.items()))
+    checks = {"both run to t = 10": few["t"] > 10 - 1e-9 and many["t"] > 10 - 1e-9,
+              "they end at the same place": max(apart["x"], apart["y"], apart["z"]) <= 5e-3,
+              "and at the same angle": apart["angle"] <= 1,
+              "a quarter of the steps": 4 * few["steps"] <= many["steps"]}
+    for sentence, holds in checks.items():
+        print("ok  " if holds else "FAIL", sentence)
+    return 0 if all(checks.values()) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
