@@ -43,8 +43,8 @@ Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c);
 /// Weights of what is known at t^n, at dt_old before and at dt_before before that, for its mean
 /// over the dt after t^n [Hairer93] (III.5): by the line through the first two and the part `bend`
 /// of what the parabola through all three adds to it; 1: exact for quadratic functions of t, 0: for
-/// linear ones. By the line where dt_before is 0 or dt more than twice dt_old, so far beyond which
-/// the parabola would exaggerate; by the first where dt_old is 0.
+/// linear ones. By the line where dt_before is 0 or a step more than twice the one before it, so
+/// far beyond which the parabola would exaggerate; by the first where dt_old is 0.
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real bend);
 
 /// What the predictor needs besides u and p.
@@ -60,7 +60,7 @@ struct Sources {
 ///     = -rho AB3(conv) + visc(u^n) + AB2(rest) + V (-grad p^n + f + S).
 /// What moves with a body through the mesh changes by Courant numbers in a step: there AB2 is off
 /// by 5/12 Co^2 of a wave's second difference, more than half of what the linear face value is
-/// (1/6) at Co = 0.5. Between Courant numbers of 0.6 and 0.72 AB3 gives way to AB2.
+/// (1/6) at Co = 0.5. Between Courant numbers of 0.66 and 0.9 AB3 gives way to AB2.
 /// theta = 1 where mu_s / mu_f > 2 or in the first steps, which damps what an impulsive start
 /// leaves. With `hold_past` visc acts on u^n - (theta - 1/2) (dt / dt_old) (u^n - u^(n-1)) after
 /// these, which makes up for theta to second order: rho u_t = -l u, z the factor of a step,

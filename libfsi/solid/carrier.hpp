@@ -29,7 +29,7 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
 /// The boundary where the solid touches it.
 struct Contact {
   const BoundaryField<Vec3>& u_b;
-  const BoundaryField<char>& touched;  ///< 1 on faces that the solid touches, openings apart
+  const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
 };
 
 /// The flow, frozen over a step of the solid.

@@ -76,6 +76,7 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
   for (const Index c : near_) zone_[c] = 0;
   near_ = last_set_;
   near_.insert(near_.end(), set_.begin(), set_.end());
+  near_.insert(near_.end(), alone_.begin(), alone_.end());
   for (const Index c : near_) zone_[c] = near_zone;
   for (const Index c : known.core()) zone_[c] = zone(c, alpha, mesh_);
   mesh_.halo.update(zone_);

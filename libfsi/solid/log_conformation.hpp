@@ -12,7 +12,8 @@
 namespace fsi::solid {
 
 /// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
-/// on the cells that the solid fills by half or more, with face values by Koren's limiter, Heun's
+/// on the cells that the solid fills by half or more (in the middle of the step, as the solver has
+/// it; what it does to a speck the extension undoes), with face values by Koren's limiter, Heun's
 /// method over dt, or parts of it (strain.hpp), with phi and L frozen (one_sided.hpp), then det B =
 /// 1 and the extension into the cells around. B = exp(psi) is positive definite whatever happens.
 /// Second order in space; the solver makes it so in time by taking it half a step ahead of the

@@ -59,7 +59,7 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
     const Real a_f = (*solid.alpha_f)[f];
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
-      // tau_b = tau_P + grad tau . d
+      // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
       const SymTensor tau = G_ * dev(B[P] + along(grad[P], d));
       const Vec3& m = (*solid.normal)[f];
       const Real s = dot(m, dot(tau, m));

@@ -45,7 +45,8 @@ struct Body {
   void list(io::Snapshot& snapshot);
   /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
   void weigh();
-  /// Sets `touched` on the faces of the listed owned cells. open: 1 on faces of openings.
+  /// Sets `touched` on the boundary faces of the listed owned cells, as the solid stands now. open:
+  /// 1 on faces of openings, which count as not touched.
   void set_touched(std::span<const Index> cells, std::span<const char> open);
   /// Whether elasticity may be treated implicitly: the paper's scheme does not.
   bool semi_implicit() const { return extended(); }
@@ -87,7 +88,7 @@ struct Body {
   FaceField<Real> alpha_f;      ///< part of solid at the band's faces
   FaceField<Vec3> normal_f;     ///< of the interface there, zero away from it; where B is extended
   CellField<Real> lambda;       ///< largest eigenvalue of B; owned and halo
-  BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, openings apart
+  BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, by set_touched
   Real t = 0;                   ///< time of alpha and B
   solid::Strain strain;         ///< in the last step
   Real eigenvalue_min = 1;      ///< of B on this rank

@@ -197,7 +197,7 @@ void Solver::transport_elastic() {
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha_strained());
-        body_->set_touched(k.strained(), momentum_.open_face());
+        if (by_flux) body_->set_touched(k.strained(), momentum_.open_face());
         if (by_flux) set_velocity_of_fluxes(grad_q_, k.strained());
         if (by_flux || !needs_L()) set_L(u, k.strained());
         if (sided) {

@@ -37,11 +37,13 @@ TEST(AdamsBashforth, LinesWhereLittleIsKnown) {
     EXPECT_NEAR(weighted(0, dt, 0.3, before), 1, 1e-15);
     EXPECT_NEAR(weighted(1, dt, 0.3, before), dt / 2, 1e-15);
   }
+  // after a step much longer than the one before it, a rest before an event
+  EXPECT_EQ(adams_bashforth(0.3, 0.3, 0.01, 1)[2], 0);
   EXPECT_EQ(adams_bashforth(0.3, 0, 0, 1), (std::array<Real, 3>{1, 0, 0}));
 }
 
-/// Error of u' = i u at t = 2 with n pairs of steps, the second 1.5 times the first; Euler's rule
-/// and the line first.
+/// Error of u' = i u at t = 2 with n pairs of steps, the second 1.5 times the first; the first two
+/// steps exact.
 Real error(int n) {
   using Complex = std::complex<Real>;
   const Real pair = 2.0 / n;

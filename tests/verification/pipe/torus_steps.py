@@ -39,6 +39,9 @@ def main():
         print(f"t = {row['t']:g}: x {row['x']:.4f} {other['x']:.4f}, y {row['y']:.4f} {other['y']:.4f}, "
               f"angle {row['angle']:.2f} {other['angle']:.2f}, apart " +
               ", ".join(f"{name} {value:.5f}" for name, value in apart.items()))
+    if not apart:
+        print("FAIL no row of both")
+        return 1
     checks = {"both run to t = 10": few["t"] > 10 - 1e-9 and many["t"] > 10 - 1e-9,
               "they end at the same place": max(apart["x"], apart["y"], apart["z"]) <= 5e-3,
               "and at the same angle": apart["angle"] <= 1,
