@@ -104,7 +104,6 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       mu_0_(mu_0),
       open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
       history_{CellField<Vec3>(mesh), CellField<Vec3>(mesh), CellField<Vec3>(mesh)},
-      now_(mesh),
       rhs_(mesh),
       w_(static_cast<std::size_t>(mesh.n_cells * mesh.dim)),
       b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
@@ -184,26 +183,24 @@ Real Momentum::bend(const FaceField<Real>& phi, Real dt) const {
 void Momentum::add_convection(const FaceField<Real>& phi, const CellField<Vec3>& u,
                               const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L, Real dt) {
   auto& [last, before, rest] = history_;
-  convection(now_, phi, u, u_b, L, weights_, mesh_);
   const auto w = adams_bashforth(dt, dt_old, dt_before, bend(phi, dt));
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    rhs_[c] -= rho_ * (w[0] * now_[c] + w[1] * last[c] + w[2] * before[c]);
+  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= rho_ * (w[1] * last[c] + w[2] * before[c]);
   before.assign(last);
-  last.assign(now_);
+  convection(last, phi, u, u_b, L, weights_, mesh_);
+  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= (rho_ * w[0]) * last[c];
 }
 
 void Momentum::add_rest(const FaceField<Real>& mu, const CellField<Tensor>& L, Real dt) {
-  now_.fill({});
-  viscous_rest(now_, mu, mu_0_, L, open_face_, weights_, mesh_);
   const auto w = adams_bashforth(dt, dt_old, 0, 0);
   const Real share = extrapolated(dt);
-  CellField<Vec3>& last = history_.rest;
+  CellField<Vec3>& rest = history_.rest;
+  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += w[1] * rest[c];
+  rest.fill({});
+  viscous_rest(rest, mu, mu_0_, L, open_face_, weights_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) {
-    rhs_[c] += (1 - share) * now_[c];
-    now_[c] *= share;
-    rhs_[c] += w[0] * now_[c] + w[1] * last[c];
+    rhs_[c] += (1 - share + w[0] * share) * rest[c];
+    rest[c] *= share;
   }
-  last.assign(now_);
 }
 
 void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,

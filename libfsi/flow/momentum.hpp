@@ -136,7 +136,7 @@ class Momentum {
       implicit_;  // [n_boundary] share of the viscous flux in each component's diagonal
   History history_;
   bool has_rest_ = false;  // there is a viscous rest
-  CellField<Vec3> now_, rhs_;
+  CellField<Vec3> rhs_;
   std::optional<Past> past_;
   std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]
   VectorSystem system_;
