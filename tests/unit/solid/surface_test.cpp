@@ -83,6 +83,28 @@ TEST(LogConformation, ASpeckHasNoStrainOfItsOwn) {
   EXPECT_NEAR(run.strain_at(5, 5), 1, 1e-14);
 }
 
+// Away from the body a speck leaves nothing behind; where the body comes to it, it takes the
+// body's.
+TEST(LogConformation, ASpeckComesAndGoes) {
+  const SymTensor psi{0, 1, 0, 0, 0, 0};
+  Cells cells(psi, [](int i, int j) { return (i < 5 && j < 5) || (i == 9 && j == 9); });
+  const Mesh& mesh = cells.run.mesh;
+  auto& alpha = cells.run.alpha;
+  auto& kinematics = cells.run.kinematics;
+  EXPECT_EQ(cells.strain_at(9, 9), 0);
+  const auto fill = [&](Index i, Index j, Real part) {
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (norm(12 * mesh.C[c] - Vec3{i + 0.5, j + 0.5, 0}) < 0.1) alpha[c] = part;
+  };
+  fill(9, 9, 0), fill(6, 3, 1);  // a gap of one cell to the body
+  kinematics.resume(alpha, cells.run.grad);
+  EXPECT_EQ(cells.strain_at(9, 9), 0);
+  EXPECT_NEAR(cells.strain_at(6, 3), 1, 1e-14);
+  fill(5, 3, 1);
+  kinematics.resume(alpha, cells.run.grad);
+  EXPECT_NEAR(cells.strain_at(6, 3), 1, 1e-14);
+}
+
 // The pressure that bears a level stress goes on with the surface, whichever way that goes.
 TEST(CarriedPressure, TheJumpGoesWithTheSurface) {
   constexpr Real G = 3;

@@ -72,5 +72,32 @@ TEST(Walls, CarryAStiffSolidWithThem) {
   for (Index c = 0; c < mesh.n_owned; ++c) EXPECT_NEAR(u[c].x, 0.1, 1e-3);
 }
 
+// A solid against all four sides of a box but for a film at one: it touches two walls, slip plane
+// and all, not what is beyond the film, and no opening.
+TEST(Walls, AreTouchedByTheSolidAtThem) {
+  constexpr Index n = 16;
+  const Mesh mesh = test::read_box({.n = {n, n, 0}});
+  const FaceWeights weights(mesh);
+  constexpr Real film = 0.3 / n;
+  const auto layer = shapes::translate(shapes::box({200, 2 - 2 * film, 200}), {0, 0, 0});
+  Body body(mesh, weights, layer, 1, KinematicsKind::log_conformation);
+  std::vector<Index> cells;
+  for (Index c = 0; c < mesh.n_owned; ++c) cells.push_back(c);
+  std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  const auto b_of = [&](Index f) { return static_cast<std::size_t>(f - mesh.n_internal); };
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    if (mesh.Cf[f].x > 1 - 1e-9) open[b_of(f)] = 1;
+  body.set_touched(cells, open);
+  int touched = 0;
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    if (mesh.owner[f] >= mesh.n_owned) continue;
+    const Vec3& x = mesh.Cf[f];
+    const bool solid = x.y < 1 - film, opening = open[b_of(f)] != 0;
+    EXPECT_EQ(body.touched[f - mesh.n_internal] != 0, solid && !opening) << x.x << " " << x.y;
+    touched += body.touched[f - mesh.n_internal];
+  }
+  EXPECT_GT(touched, 0);
+}
+
 }  // namespace
 }  // namespace fsi
