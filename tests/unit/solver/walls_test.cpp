@@ -72,8 +72,7 @@ TEST(Walls, CarryAStiffSolidWithThem) {
   for (Index c = 0; c < mesh.n_owned; ++c) EXPECT_NEAR(u[c].x, 0.1, 1e-3);
 }
 
-// A solid against all four sides of a box but for a film at one: it touches two walls, slip plane
-// and all, not what is beyond the film, and no opening.
+// A solid that fills a box but for a film at one side, another being open: it touches the two left.
 TEST(Walls, AreTouchedByTheSolidAtThem) {
   constexpr Index n = 16;
   const Mesh mesh = test::read_box({.n = {n, n, 0}});
