@@ -9,14 +9,12 @@ namespace {
 
 constexpr Real near_zone = 1, inner_zone = 2, surrounded_zone = 3;
 
-/// How many faces of a cell have a known cell behind them.
-int known_faces(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
-  int count = 0;
-  for (const Index f : mesh.cell_faces[c])
-    if (f < mesh.n_internal &&
-        alpha[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known)
-      ++count;
-  return count;
+/// Whether a face of the cell has a known cell behind it.
+bool beside_known(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
+  return std::ranges::any_of(mesh.cell_faces[c], [&](Index f) {
+    return f < mesh.n_internal &&
+           alpha[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] >= alpha_known;
+  });
 }
 
 /// The zone of a known cell.
@@ -63,8 +61,7 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
   last_set_.swap(set_);
   set_.clear();
   alone_.clear();
-  for (const Index c : known.core())
-    (known_faces(c, alpha, mesh_) > 0 ? set_ : alone_).push_back(c);
+  for (const Index c : known.core()) (beside_known(c, alpha, mesh_) ? set_ : alone_).push_back(c);
   end_[0] = set_.size();
   for (const Index c : set_) ring_of_[c] = 1;
   mesh_.halo.update(ring_of_);
