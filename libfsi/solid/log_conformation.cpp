@@ -47,13 +47,13 @@ void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier
   };
   L_.clear();
   for (const Index c : known_.core()) {
-    if (carrier.sided) {
-      L_.push_back(carrier.L[c]);
-    } else if (extension_.inner(c)) {
-      L_.push_back(with_flux(carrier, mesh_, c));
+    if (extension_.inner(c)) {
+      L_.push_back(carrier.sided ? carrier.L[c] : with_flux(carrier, mesh_, c));
     } else {
       const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, u_at, mesh_, c);
-      L_.push_back(without_trace(L, alpha, mesh_, c));
+      // On triangles all of it along the normal is less accurate, none of it unstable where stiff.
+      const Real part = carrier.sided ? 0.5 : 1;
+      L_.push_back(without_trace(L, part, alpha, mesh_, c));
     }
   }
 }
