@@ -41,6 +41,8 @@ struct Carrier {
   const FaceWeights& weights;
   bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
   const Contact* contact = nullptr;  ///< none: nowhere
+  Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)
+  Real recovery = 0;                 ///< rate against the solid's viscosity, G / mu_s
 };
 
 }  // namespace fsi::solid

@@ -37,6 +37,14 @@ class Extension {
   /// Collective. Linear. T: set on owned known cells before, in the rings and the halo too after,
   /// zero where only an earlier call had set it. slope: scratch, zero in owned cells after.
   void linear(CellField<SymTensor>& T, CellField<SymGradient>& slope);
+  /// Collective. Damps what alternates from known cell to known cell in a time dt,
+  ///   T += (1 - exp(-C r dt)) sum w (T_k - T - (g + g_k) / 2 . (x_k - x)) / sum w,
+  ///   r = min(speed / h, recovery),  h = V^(1/dim),  C = 0.1,
+  /// over the known vertex neighbours k, g the least squares: fourth differences [Jameson81],
+  /// nothing of a linear T. T: of owned known cells; slope: as above; speed, recovery: of a wave
+  /// of the cells' length, where viscosity does not matter and where it rules.
+  void damp(CellField<SymTensor>& T, CellField<SymGradient>& slope, Real speed, Real recovery,
+            Real dt);
   /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is
   /// touched. T: set on owned known cells before; where: not zero there, owned and halo.
   void constant(CellField<SymTensor>& T, const CellField<Real>& where);
@@ -69,6 +77,7 @@ class Extension {
   std::vector<Index> set_, last_set_, near_, alone_;
   std::array<std::size_t, rings + 1> end_{};  // in set_, of the known cells and of each ring
   std::vector<SymGradient> slopes_;
+  std::vector<SymTensor> change_;
   std::vector<std::int32_t> stamp_;
   std::int32_t calls_ = 0;
 };

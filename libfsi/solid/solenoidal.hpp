@@ -54,15 +54,14 @@ inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
   return carrier.L[c] + (1 / mesh.V[c]) * sum;
 }
 
-/// L of a cell at the surface with a part of its trace taken out along the normal,
-///   L - part tr(L) n (x) n,   n that of `towards_solid`:
-/// what differs along the surface is continuous and smooth, div u = 0 gives the rest. What is left
-/// of the trace goes out of log B in all directions alike. L itself where the solid is alike on all
-/// sides.
-inline Tensor without_trace(const Tensor& L, Real part, const CellField<Real>& alpha,
-                            const Mesh& mesh, Index c) {
+/// L of a cell at the surface with its trace taken out along the normal,
+///   L - tr(L) n (x) n,   n that of `towards_solid`:
+/// what differs along the surface is continuous and smooth, div u = 0 gives the rest. L itself
+/// where the solid is alike on all sides.
+inline Tensor without_trace(const Tensor& L, const CellField<Real>& alpha, const Mesh& mesh,
+                            Index c) {
   const Vec3 n = towards_solid(alpha, mesh, c);
-  return n == Vec3{} ? L : L + (-part * trace(L)) * outer(n, n);
+  return n == Vec3{} ? L : L + (-trace(L)) * outer(n, n);
 }
 
 }  // namespace fsi::solid

@@ -193,7 +193,15 @@ void Solver::transport_elastic() {
   const bool sided = body_->sided.has_value(), by_flux = body_->strained_by_flux();
   const CellField<Vec3>& u = by_flux ? grad_q_ : state_.u;  // grad_q: scratch here
   const solid::Contact contact{u_b_, body_->touched};
-  const solid::Carrier carrier{state_.phi, u, L_, projection_.stencil(), weights_, sided, &contact};
+  const solid::Carrier carrier{state_.phi,
+                               u,
+                               L_,
+                               projection_.stencil(),
+                               weights_,
+                               sided,
+                               &contact,
+                               std::sqrt(physics_.G / physics_.rho),
+                               physics_.G / physics_.mu_s};
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha_strained());

@@ -299,62 +299,6 @@ TEST(OneSided, GradientOfTheKnownSide) {
   }
 }
 
-/// What the linear continuation of T makes of the cells around a ball, `radius` wide.
-struct Continued {
-  Continued(const test::BoxFile& box, Real radius, const std::function<SymTensor(const Vec3&)>& T_0)
-      : mesh(test::read_box(box)), alpha(mesh), T(mesh), slope(mesh), known(mesh), extension(mesh) {
-    for (Index c = 0; c < mesh.n_cells; ++c) {
-      const Vec3 x = mesh.C[c] - Vec3{0.5, 0.5, mesh.dim == 3 ? 0.5 : 0};
-      alpha[c] = norm(x) < radius ? 1 : 0;
-      T[c] = alpha[c] * T_0(mesh.C[c]);
-    }
-    known.rebuild(alpha, solid::alpha_known);
-    extension.mark(alpha, known);
-    extension.linear(T, slope);
-  }
-  Mesh mesh;
-  CellField<Real> alpha;
-  CellField<SymTensor> T;
-  CellField<solid::SymGradient> slope;
-  Band known;
-  solid::Extension extension;
-};
-
-// Three rings of cells around a ball go on as the ball does.
-TEST(Extension, IsExactForALinearTensor) {
-  const auto T_0 = [](const Vec3& x) {
-    return SymTensor{1 + x.x, 2 * x.y - x.x, x.z, -3 * x.y, 0.5, x.x - x.z};
-  };
-  for (const test::BoxFile& box :
-       {test::BoxFile{.n = {20, 20, 0}}, test::BoxFile{.n = {20, 20, 0}, .simplex = true},
-        test::BoxFile{.n = {14, 14, 14}}, test::BoxFile{.n = {8, 8, 8}, .simplex = true}}) {
-    const Continued run(box, 0.28, T_0);
-    int set = 0;
-    for (Index c = 0; c < run.mesh.n_cells; ++c) {
-      if (run.extension.near()[c] == 0) continue;
-      EXPECT_LE(largest(run.T[c] - T_0(run.mesh.C[c])), 1e-12);
-      EXPECT_TRUE(c >= run.mesh.n_owned || run.slope[c].x == SymTensor{});
-      ++set;
-    }
-    EXPECT_GT(set, 0);
-  }
-}
-
-// What alternates from cell to cell goes no further out than it is high; a solid two cells thick
-// goes on as a constant.
-TEST(Extension, DoesNotExtrapolateNoise) {
-  const auto checks = [](const Vec3& x) {
-    return SymTensor{std::cos(16 * std::numbers::pi * (x.x - 0.03125)) *
-                     std::cos(16 * std::numbers::pi * (x.y - 0.03125))};
-  };
-  const Continued noise({.n = {16, 16, 0}}, 0.3, checks);
-  const Continued thin({.n = {16, 16, 0}}, 0.09, [](const Vec3& x) { return SymTensor{x.x}; });
-  for (Index c = 0; c < noise.mesh.n_owned; ++c) {
-    EXPECT_LE(std::abs(noise.T[c].xx), 1 + 1e-12);
-    EXPECT_LE(std::abs(thin.T[c].xx), 0.5 + 0.03125 + 1e-12);
-  }
-}
-
 // Known cells keep their own; the first ring takes the weighted mean of the known cells beside it.
 TEST(Extension, MeanOfTheNeighbours) {
   Ball ball({.n = {16, 16, 0}});
