@@ -39,7 +39,8 @@ struct Carrier {
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
-  bool sided = false;  ///< L is that of the cell's own side of the surface (SidedGradient)
+  /// What strains the solid's cells, owned (SidedGradient); none where L is not of one side.
+  const CellField<Tensor>* strain = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere
   Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)
   Real recovery = 0;                 ///< rate against the solid's viscosity, G / mu_s

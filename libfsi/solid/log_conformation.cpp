@@ -47,11 +47,13 @@ void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier
   };
   L_.clear();
   for (const Index c : known_.core()) {
-    if (inner(c)) {
-      L_.push_back(carrier.sided ? carrier.L[c] : with_flux(carrier, mesh_, c));
+    if (carrier.strain) {
+      L_.push_back((*carrier.strain)[c]);
+    } else if (inner(c)) {
+      L_.push_back(with_flux(carrier, mesh_, c));
     } else {
       const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, u_at, mesh_, c);
-      L_.push_back(carrier.sided ? L : without_trace(L, alpha, mesh_, c));
+      L_.push_back(without_trace(L, alpha, mesh_, c));
     }
   }
 }
@@ -99,7 +101,7 @@ Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGrad
   const Real fastest = rate(carrier, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
-  if (carrier.sided) extension_.damp(psi, grad, carrier.wave_speed, carrier.recovery, dt);
+  if (carrier.strain) extension_.damp(psi, grad, carrier.wave_speed, carrier.recovery, dt);
   extension_.linear(psi, grad);
   return fastest;
 }

@@ -14,10 +14,9 @@ namespace fsi::solid {
 /// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
 /// on the cells that the solid fills by half or more (in the middle of the step, as the solver has
 /// it; what it does to a speck the extension undoes), with face values by Koren's limiter, Heun's
-/// method over dt, or parts of it (strain.hpp), with phi and L frozen (one_sided.hpp), then det B =
-/// 1 and the extension into the cells around. B = exp(psi) is positive definite whatever happens.
-/// Second order in space; the solver makes it so in time by taking it half a step ahead of the
-/// flow.
+/// method over dt, or parts of it (strain.hpp), with phi and L frozen, then det B = 1 and the
+/// extension into the cells around. B = exp(psi) is positive definite whatever happens. Second
+/// order in space; the solver makes it so in time by taking it half a step ahead of the flow.
 class LogConformation {
  public:
   explicit LogConformation(const Mesh& mesh);
@@ -66,8 +65,9 @@ class LogConformation {
   CellField<SymTensor> psi;
 
  private:
-  /// Sets L_: the velocity gradient without the divergence of the cell velocities (solenoidal.hpp),
-  /// in the solid's outermost cells that of its own side (one_sided.hpp).
+  /// Sets L_: carrier.strain, or the velocity gradient without the divergence of the cell
+  /// velocities (solenoidal.hpp), in the solid's outermost cells that of its own side
+  /// (one_sided.hpp).
   void set_L(const CellField<Real>& alpha, const Carrier& carrier);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
   Real rate(const Carrier& carrier, CellField<SymGradient>& grad);

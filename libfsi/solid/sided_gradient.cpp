@@ -5,23 +5,31 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/one_sided.hpp"
 #include "libfsi/solid/quadratic_fit.hpp"
 
 namespace fsi::solid {
 namespace {
 
-/// The fit about c over the neighbours n with same(n), with their L where has_L(n). u(n): velocity.
+/// The velocity of one side: without what the kink adds to it in cut cells.
+struct OfOneSide {
+  const CellField<Vec3>& u;
+  const CellField<Vec3>& kink;
+  Vec3 operator[](Index c) const { return u[c] - kink[c]; }
+};
+
+/// The fit about c over the neighbours n with same(n), with their L where has_L(n).
 template <class Velocity, class Same, class HasL>
 std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
                           const BoundaryField<Vec3>& u_b, const Same& same, const HasL& has_L,
                           const Mesh& mesh, Index c) {
   QuadraticFit quadratic(mesh.dim, mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]));
-  const Vec3 u_c = u(c);
+  const Vec3 u_c = u[c];
   for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
     const Index n = mesh.cell_neighbours.index[k];
     if (!same(n)) continue;
     const Vec3 r = mesh.C[n] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[k]];
-    quadratic.add_value(r, u(n) - u_c);
+    quadratic.add_value(r, u[n] - u_c);
     if (has_L(n)) quadratic.add_gradient(r, L[n]);
   }
   for (const Index f : mesh.cell_faces[c])
@@ -84,8 +92,7 @@ void SidedGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u,
                               std::span<const Index> cells) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto none = [](Index) { return false; };
-  const auto u_in = [&](Index c) { return u[c] - kink_in_[c]; };
-  const auto u_out = [&](Index c) { return u[c] - kink_out_[c]; };
+  const OfOneSide u_in{u, kink_in_}, u_out{u, kink_out_};
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();
   for (const Index c : cells) {
@@ -108,6 +115,29 @@ void SidedGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u,
     if (sided) L[c] = *sided;
   }
   mesh_.halo.update(L);
+}
+
+void SidedGradient::set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
+                               const CellField<Real>& alpha, std::span<const Index> cells) {
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  const auto deep = [&](Index c) { return deep_[c] > 0; };
+  const auto set = [](Index) { return true; };
+  const OfOneSide u_in{u, kink_in_};
+  beside_.clear();
+  for (const Index c : cells) {
+    if (known(c)) strain_[c] = L[c];
+    if (known(c) && !deep(c)) beside_.push_back(c);
+  }
+  mesh_.halo.update(strain_);
+  constexpr int sweeps = 4;
+  for (int i = 0; i < sweeps; ++i) {
+    swept_.clear();
+    for (const Index c : beside_)
+      swept_.push_back(i == 0 ? one_sided_gradient(strain_, u_in, known, deep, nowhere, mesh_, c)
+                              : one_sided_gradient(strain_, u_in, known, set, nowhere, mesh_, c));
+    for (std::size_t k = 0; k < beside_.size(); ++k) strain_[beside_[k]] = swept_[k];
+    mesh_.halo.update(strain_);
+  }
 }
 
 }  // namespace fsi::solid

@@ -43,11 +43,23 @@ struct Cuts {
 class SidedGradient {
  public:
   explicit SidedGradient(const Mesh& mesh)
-      : mesh_(mesh), deep_(mesh), kink_in_(mesh), kink_out_(mesh) {}
+      : mesh_(mesh), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
 
   /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
              const Cuts& cuts, std::span<const Index> cells);
+
+  /// Collective, after `apply` with the same L, u, alpha and cells. Sets `strain` in the solid's
+  /// cells: L in those whose vertex neighbours are all of the solid; in the others, by the pairs of
+  /// cells of the solid,
+  ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2
+  /// (`one_sided_gradient`), all at once in a few sweeps, of which the first takes L_c for L_k
+  /// where k is such a cell too. Exact for linear u; what one sweep leaves of a quadratic, the next
+  /// ones take down. A quadratic fit from one side answers to the errors of few values.
+  void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
+                  const CellField<Real>& alpha, std::span<const Index> cells);
+  /// What strains the solid's cells, owned and halo.
+  const CellField<Tensor>& strain() const { return strain_; }
 
  private:
   void clear_kinks();
@@ -58,6 +70,9 @@ class SidedGradient {
   const Mesh& mesh_;
   CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
   std::vector<Index> last_deep_;
+  CellField<Tensor> strain_;
+  std::vector<Index> beside_;  // cells of the solid that are not deep
+  std::vector<Tensor> swept_;
   CellField<Vec3> kink_in_,
       kink_out_;  // what a kink adds to u, by the solid's and the fluid's side
   std::vector<Index> kinked_;

@@ -198,7 +198,7 @@ void Solver::transport_elastic() {
                                L_,
                                projection_.stencil(),
                                weights_,
-                               sided,
+                               sided ? &body_->sided->strain() : nullptr,
                                &contact,
                                std::sqrt(physics_.G / physics_.rho),
                                physics_.G / physics_.mu_s};
@@ -214,6 +214,8 @@ void Solver::transport_elastic() {
               L_, state_.u, u_b_,
               {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
               k.strained());
+          if (body_->strained_by_pairs())
+            body_->sided->set_strain(L_, state_.u, body_->alpha, k.strained());
         }
         body_->strain = k.transport(body_->alpha_strained(), carrier, solid_dt_, body_->grad);
         if (by_flux && needs_L()) set_L(state_.u, k.strained());
