@@ -39,7 +39,7 @@ struct Carrier {
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;
-  /// What strains the solid's cells, owned (SidedGradient); none where L is not of one side.
+  /// What strains the solid's cells, owned (SidedGradient); none: L, u and phi do.
   const CellField<Tensor>* strain = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere
   Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)

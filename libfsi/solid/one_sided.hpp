@@ -11,7 +11,7 @@ namespace fsi::solid {
 /// over the vertex neighbours n with known(n), L in place of L_n where that is not inner(n): the
 /// rule of the middle, exact for a quadratic u on the way to an inner neighbour; and, with L, over
 /// the boundary faces f that have a velocity *u_at(f). In directions in which these do not spread,
-/// L_c, the gradient over all neighbours. L, u: owned and halo; u[c] a velocity.
+/// L_c as it is given. L, u: owned and halo; u[c] a velocity.
 template <class Velocity, class Known, class Inner, class BoundaryVelocity>
 Tensor one_sided_gradient(const CellField<Tensor>& L, const Velocity& u, const Known& known,
                           const Inner& inner, const BoundaryVelocity& u_at, const Mesh& mesh,

@@ -118,10 +118,12 @@ void SidedGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u,
 }
 
 void SidedGradient::set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
-                               const CellField<Real>& alpha, std::span<const Index> cells) {
+                               const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                               std::span<const Index> cells) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto deep = [&](Index c) { return deep_[c] > 0; };
   const auto set = [](Index) { return true; };
+  const auto u_at = [&](Index f) { return &u_b[f - mesh_.n_internal]; };
   const OfOneSide u_in{u, kink_in_};
   beside_.clear();
   for (const Index c : cells) {
@@ -133,8 +135,8 @@ void SidedGradient::set_strain(const CellField<Tensor>& L, const CellField<Vec3>
   for (int i = 0; i < sweeps; ++i) {
     swept_.clear();
     for (const Index c : beside_)
-      swept_.push_back(i == 0 ? one_sided_gradient(strain_, u_in, known, deep, nowhere, mesh_, c)
-                              : one_sided_gradient(strain_, u_in, known, set, nowhere, mesh_, c));
+      swept_.push_back(i == 0 ? one_sided_gradient(strain_, u_in, known, deep, u_at, mesh_, c)
+                              : one_sided_gradient(strain_, u_in, known, set, u_at, mesh_, c));
     for (std::size_t k = 0; k < beside_.size(); ++k) strain_[beside_[k]] = swept_[k];
     mesh_.halo.update(strain_);
   }

@@ -49,16 +49,18 @@ class SidedGradient {
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
              const Cuts& cuts, std::span<const Index> cells);
 
-  /// Collective, after `apply` with the same L, u, alpha and cells. Sets `strain` in the solid's
-  /// cells: L in those whose vertex neighbours are all of the solid; in the others, by the pairs of
-  /// cells of the solid,
-  ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2
-  /// (`one_sided_gradient`), all at once in a few sweeps, of which the first takes L_c for L_k
-  /// where k is such a cell too. Exact for linear u; what one sweep leaves of a quadratic, the next
-  /// ones take down. A quadratic fit from one side answers to the errors of few values.
+  /// Collective, after `apply` with the same L, u, u_b, alpha and cells, all of the solid's among
+  /// them. Sets `strain` in the solid's cells: L in those whose vertex neighbours are all of the
+  /// solid and tell the fit; in the others, by the pairs of cells of the solid,
+  ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2,
+  /// and by u_b as where L changes no more (`one_sided_gradient`), all at once in a few sweeps, of
+  /// which the first takes L_c for L_k where k is such a cell too. Exact for linear u; what one
+  /// sweep leaves of a quadratic, the next ones take down. A quadratic fit from one side answers to
+  /// the errors of few values.
   void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
-                  const CellField<Real>& alpha, std::span<const Index> cells);
-  /// What strains the solid's cells, owned and halo.
+                  const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                  std::span<const Index> cells);
+  /// What strains the solid's cells, owned and halo; elsewhere what an earlier call left.
   const CellField<Tensor>& strain() const { return strain_; }
 
  private:

@@ -59,10 +59,6 @@ struct Body {
   bool strained_by_flux() const {
     return !sided && std::holds_alternative<solid::LogConformation>(kinematics);
   }
-  /// Whether the solid is strained by pairs of its own cells (SidedGradient::strain).
-  bool strained_by_pairs() const {
-    return sided && std::holds_alternative<solid::LogConformation>(kinematics);
-  }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {
     return std::visit([](const auto& k) { return k.ahead; }, kinematics);

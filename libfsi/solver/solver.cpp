@@ -214,8 +214,7 @@ void Solver::transport_elastic() {
               L_, state_.u, u_b_,
               {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
               k.strained());
-          if (body_->strained_by_pairs())
-            body_->sided->set_strain(L_, state_.u, body_->alpha, k.strained());
+          body_->sided->set_strain(L_, state_.u, u_b_, body_->alpha, k.strained());
         }
         body_->strain = k.transport(body_->alpha_strained(), carrier, solid_dt_, body_->grad);
         if (by_flux && needs_L()) set_L(state_.u, k.strained());
