@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-cavity", "flow in a closed cavity whose lid slides");
-  const Case which = read_case(options, "cavity");
+  Case which = read_case(options, "cavity");
   const Real lid =
       options.real("lid_velocity", 1, {.help = "of patch top, along x", .unit = "velocity"});
   if (options.help()) return Ending::complete;
@@ -15,11 +15,11 @@ Ending body() {
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(which.mesh);
-  const Conditions conditions{{"top", Wall{{lid, 0, 0}}}, {"wall", Wall{}}};
+  which.flow.conditions = {{"top", Wall{{lid, 0, 0}}}, {"wall", Wall{}}};
   describe(which, mesh, 1, std::abs(lid));
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, {.conditions = conditions});
+  Solver solver(mesh, which.physics, which.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
   if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
 

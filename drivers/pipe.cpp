@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
-  const Case which = read_case(options, "pipe", {1, 0, 0});
+  Case which = read_case(options, "pipe", {1, 0, 0});
   const Real mean = options.real("flow_mean_velocity", 0.5,
                                  {.help = "along x, held exactly", .unit = "velocity"});
   if (options.help()) return Ending::complete;
@@ -15,13 +15,14 @@ Ending body() {
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(which.mesh);
-  Conditions conditions{{"wall", Wall{}}};
+  which.flow.conditions = {{"wall", Wall{}}};
   for (const Patch& patch : mesh.patches)
-    if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
+    if (patch.name == "symmetry") which.flow.conditions["symmetry"] = Slip{};
+  which.flow.mean_velocity = mean;
   describe(which, mesh, 1, 2 * mean);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, {.conditions = conditions, .mean_velocity = mean});
+  Solver solver(mesh, which.physics, which.flow);
   solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
   if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
 

@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-shear", "flow between two plates that slide against each other");
-  const Case which = read_case(options, "shear");
+  Case which = read_case(options, "shear");
   const Real rate = options.real("shear_rate", 1,
                                  {.help = "du/dy of the flow between patches bottom and top",
                                   .unit = "1 / time",
@@ -18,15 +18,15 @@ Ending body() {
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(which.mesh);
   const auto shear = [rate](const Vec3& x) { return Vec3{rate * x.y, 0, 0}; };
-  Conditions conditions{{"top", Wall{shear(centre(mesh, "top"))}},
-                        {"bottom", Wall{shear(centre(mesh, "bottom"))}}};
+  which.flow.conditions = {{"top", Wall{shear(centre(mesh, "top"))}},
+                           {"bottom", Wall{shear(centre(mesh, "bottom"))}}};
   for (const Patch& patch : mesh.patches)
-    if (patch.name == "back" || patch.name == "front") conditions[patch.name] = Slip{};
+    if (patch.name == "back" || patch.name == "front") which.flow.conditions[patch.name] = Slip{};
   const Real length = which.solid.shape ? which.solid.thickness / 2 : 1;
   describe(which, mesh, length, rate * length);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, {.conditions = conditions});
+  Solver solver(mesh, which.physics, which.flow);
   solver.start(shear);
   if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
 

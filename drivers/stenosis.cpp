@@ -7,7 +7,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
-  const Case which = read_case(options, "stenosis", {1, 0, 0});
+  Case which = read_case(options, "stenosis", {1, 0, 0});
   const Real p_in = options.real("inlet_pressure", 5.5,
                                  {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
   if (options.help()) return Ending::complete;
@@ -15,13 +15,13 @@ Ending body() {
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(which.mesh);
-  Conditions conditions{{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
+  which.flow.conditions = {{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
   for (const Patch& patch : mesh.patches)
-    if (patch.name == "symmetry") conditions["symmetry"] = Slip{};
+    if (patch.name == "symmetry") which.flow.conditions["symmetry"] = Slip{};
   describe(which, mesh, 1, 1);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, {.conditions = conditions});
+  Solver solver(mesh, which.physics, which.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
   if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
 

@@ -86,14 +86,6 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
   }
 }
 
-void set_boundary_pressure(BoundaryField<Real>& p_b, const std::vector<Condition>& conditions,
-                           const Mesh& mesh) {
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    if (const auto* opening = std::get_if<Opening>(&conditions[i]))
-      for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
-        p_b[f - mesh.n_internal] = opening->pressure;
-}
-
 bool fixes_velocity(const Condition& condition) {
   return std::holds_alternative<Wall>(condition) ||
          std::holds_alternative<FixedVelocity>(condition);

@@ -4,6 +4,8 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,9 +24,21 @@ struct Slip {};
 struct FixedVelocity {
   std::function<Vec3(const Vec3& x, Real t)> u;
 };
+/// A number that may depend on time.
+class OfTime {
+ public:
+  OfTime(Real constant = 0) : at_([constant](Real) { return constant; }) {}
+  template <class Function>
+  requires std::is_invocable_r_v<Real, Function, Real> OfTime(Function function)
+      : at_(std::move(function)) {}
+  Real operator()(Real t) const { return at_(t); }
+
+ private:
+  std::function<Real(Real)> at_;
+};
 /// Inlet or outlet at given pressure; velocity with zero gradient along the normal.
 struct Opening {
-  Real pressure = 0;
+  OfTime pressure;
 };
 
 using Condition = std::variant<Wall, Slip, FixedVelocity, Opening>;
@@ -36,12 +50,9 @@ using Conditions = std::map<std::string, Condition>;
 /// wall moves through itself.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
-/// Velocity on the boundary faces at time t. u: owned cells set.
+/// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                            const std::vector<Condition>& conditions, Real t, const Mesh& mesh);
-/// Pressure on the boundary faces of openings; other faces keep their value.
-void set_boundary_pressure(BoundaryField<Real>& p_b, const std::vector<Condition>& conditions,
-                           const Mesh& mesh);
 
 /// Whether the condition gives the velocity (for its gradient and the implicit viscous term).
 bool fixes_velocity(const Condition& condition);

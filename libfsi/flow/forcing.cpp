@@ -10,8 +10,8 @@ Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Rea
   CellField<Real> potential(mesh);
   // Round-off is enough in a straight channel, where the uniform field is the answer itself.
   constexpr Real round_off = 1e-13;
-  CellField<Vec3> scratch(mesh);
-  projection.project(phi_1_, potential, u_1_, scratch, round_off * mesh.total_volume);
+  projection.project(phi_1_, potential, u_1_, BoundaryField<Real>(mesh),
+                     round_off * mesh.total_volume);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = axis_ - u_1_[c];
   mean_1_ = mean(phi_1_);
 }

@@ -1,7 +1,6 @@
 #include "libfsi/flow/momentum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
@@ -11,74 +10,19 @@ namespace {
 
 constexpr int damped_steps = 2;  // the first, with theta = 1
 
+ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const Mesh& mesh) {
+  const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  ViscousBoundary boundary{none, none};
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      const Index b = f - mesh.n_internal;
+      boundary.open[b] = fixes_pressure(conditions[i]) ? 1 : 0;
+      boundary.varied[b] = std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
+    }
+  return boundary;
+}
+
 }  // namespace
-
-void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
-                       const FaceWeights& weights, const Mesh& mesh) {
-  for (Index f = 0; f < mesh.n_internal; ++f) {
-    const Real a_P = alpha[mesh.owner[f]], a_N = alpha[mesh.neighbour[f]];
-    mu[f] = mu_f + (mu_s - mu_f) * (a_P + weights.lambda[f] * (a_N - a_P));
-  }
-  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
-    mu[f] = mu_f + (mu_s - mu_f) * alpha[mesh.owner[f]];
-}
-
-void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
-                const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
-                const FaceWeights& weights, const Mesh& mesh) {
-  conv.fill({});
-  for (Index f = 0; f < mesh.n_internal; ++f) {
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    const Real lambda = weights.lambda[f];
-    // u_f = (1 - lambda) u_P + lambda u_N + (grad u)_f . skew
-    Vec3 u_f = u[P] + lambda * (u[N] - u[P]);
-    if (weights.skewed)
-      u_f += (1 - lambda) * dot(L[P], weights.skew[f]) + lambda * dot(L[N], weights.skew[f]);
-    conv[P] += phi[f] * (u_f - u[P]);
-    conv[N] -= phi[f] * (u_f - u[N]);
-  }
-  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
-    const Index P = mesh.owner[f];
-    conv[P] += phi[f] * (u_b[f - mesh.n_internal] - u[P]);
-  }
-}
-
-void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
-                     const BoundaryField<Vec3>& u_b, const std::vector<char>& open_face,
-                     const FaceWeights& weights, const Mesh& mesh) {
-  for (Index f = 0; f < mesh.n_internal; ++f) {
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    const Vec3 flux = mu[f] * weights.g[f] * (u[N] - u[P]);
-    visc[P] += flux;
-    visc[N] -= flux;
-  }
-  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
-    const Index P = mesh.owner[f], b = f - mesh.n_internal;
-    if (open_face[b] == 0) visc[P] += mu[f] * weights.g[f] * (u_b[b] - u[P]);
-  }
-}
-
-void viscous_rest(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
-                  const CellField<Tensor>& L, const std::vector<char>& open_face,
-                  const FaceWeights& weights, const Mesh& mesh) {
-  for (Index f = 0; f < mesh.n_internal; ++f) {
-    const Real excess = mu[f] - mu_0;
-    if (!weights.non_orthogonal && excess == 0) continue;
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    const Tensor L_f = (1 - weights.lambda[f]) * L[P] + weights.lambda[f] * L[N];
-    const Vec3 flux = mu[f] * dot(L_f, weights.k[f]);
-    rest[P] += flux;
-    rest[N] -= flux;
-    if (excess == 0) continue;
-    rest[P] += excess * dot(transpose(L[P]), mesh.Sf[f]);
-    rest[N] -= excess * dot(transpose(L[N]), mesh.Sf[f]);
-  }
-  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
-    if (open_face[f - mesh.n_internal] != 0) continue;
-    const Index P = mesh.owner[f];
-    rest[P] += mu[f] * dot(L[P], weights.k[f]) + (mu[f] - mu_0) * dot(transpose(L[P]), mesh.Sf[f]);
-  }
-}
 
 Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
   Real sum = 0;
@@ -97,31 +41,33 @@ std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real b
 }
 
 Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
-                   const std::vector<Condition>& conditions, Real rho, Real mu_0)
+                   const std::vector<Condition>& conditions, Real rho, Real mu_0, Convection scheme)
     : mesh_(mesh),
       weights_(weights),
       rho_(rho),
       mu_0_(mu_0),
-      open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      scheme_(scheme),
+      boundary_(viscous_boundary(conditions, mesh)),
       history_{CellField<Vec3>(mesh), CellField<Vec3>(mesh), CellField<Vec3>(mesh)},
+      theta_f_(mesh),
       rhs_(mesh),
       w_(static_cast<std::size_t>(mesh.n_cells * mesh.dim)),
       b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
       system_(mesh, "u", 1e-7) {
-  implicit_.assign(open_face_.size(), Vec3{1, 1, 1});
+  implicit_.assign(boundary_.open.size(), Vec3{1, 1, 1});
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
       const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-      if (fixes_pressure(conditions[i])) open_face_[b] = 1, implicit_[b] = {};
+      if (fixes_pressure(conditions[i])) implicit_[b] = {};
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  if (weights.non_orthogonal) expect(mu_0);
+  if (weights.uneven) past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+  set_theta(1);
 }
 
 void Momentum::expect(Real mu_max) {
-  has_rest_ = true;
   Real spread = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     Real sum = 0;
@@ -144,8 +90,16 @@ Real Momentum::extrapolated(Real dt) const {
   return rate_ > 0 ? std::min(Real{1}, 2 / (rate_ * dt)) : 1;
 }
 
-void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real theta_now,
-                        Real dt) {
+void Momentum::set_theta(Real theta_now) {
+  theta_f_.fill(theta_now);
+  for (const Index f : weights_.irregular) {
+    if (f >= mesh_.n_internal && boundary_.varied[f - mesh_.n_internal] == 0) continue;
+    const Real oblique = std::min(Real{1}, (1 + weights_.tangent(f, mesh_)) / 2);
+    theta_f_[f] = std::max(theta_now, oblique);
+  }
+}
+
+void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real dt) {
   const Index dim = mesh_.dim;
   VectorMatrix& A = system_.matrix();
   for (Index c = 0; c < mesh_.n_owned; ++c)
@@ -155,7 +109,7 @@ void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa,
     for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
   };
   for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Real a = (theta_now * mu[f] + kappa[f]) * weights_.g[f];
+    const Real a = (theta_f_[f] * mu[f] + kappa[f]) * weights_.g[f];
     if (f >= mesh_.n_internal) {
       add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
       continue;
@@ -165,10 +119,12 @@ void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa,
     add(mesh_.neighbour[f], {a, a, a});
   }
   system_.renewed();
-  assembled_ = {theta_now, dt};
 }
 
-void Momentum::hold_past() { past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)); }
+void Momentum::hold_past() {
+  whole_past_ = true;
+  if (!past_) past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+}
 
 // Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,
 // three quarters of it at 0.72 best (0.91), the line nowhere; with viscosity the line bears more.
@@ -180,70 +136,66 @@ Real Momentum::bend(const FaceField<Real>& phi, Real dt) const {
 }
 
 // Histories are written in place: checkpoints and backups know their address.
-void Momentum::add_convection(const FaceField<Real>& phi, const CellField<Vec3>& u,
-                              const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L, Real dt) {
+void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   auto& [last, before, rest] = history_;
-  const auto w = adams_bashforth(dt, dt_old, dt_before, bend(phi, dt));
+  const auto w = adams_bashforth(dt, dt_old, dt_before, bend(terms.phi, dt));
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= rho_ * (w[1] * last[c] + w[2] * before[c]);
   before.assign(last);
-  convection(last, phi, u, u_b, L, weights_, mesh_);
+  if (reads_L())
+    convection_upwind(last, terms.phi, u, terms.u_b, terms.L, terms.L_f, weights_, mesh_,
+                      scheme_ == Convection::limited);
+  else
+    convection(last, terms.phi, u, terms.u_b, terms.L_f, weights_, mesh_,
+               scheme_ == Convection::symmetric);
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= (rho_ * w[0]) * last[c];
 }
 
-void Momentum::add_rest(const FaceField<Real>& mu, const CellField<Tensor>& L, Real dt) {
+void Momentum::add_rest(const MomentumTerms& terms, Real dt) {
+  if (!weights_.uneven && !terms.mu_varies) return;
   const auto w = adams_bashforth(dt, dt_old, 0, 0);
   const Real share = extrapolated(dt);
   CellField<Vec3>& rest = history_.rest;
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += w[1] * rest[c];
   rest.fill({});
-  viscous_rest(rest, mu, mu_0_, L, open_face_, weights_, mesh_);
+  viscous_oblique(rest, terms.mu, terms.L_f, boundary_, weights_, mesh_);
+  if (terms.mu_varies) viscous_transposed(rest, terms.mu, mu_0_, terms.L, boundary_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     rhs_[c] += (1 - share + w[0] * share) * rest[c];
     rest[c] *= share;
   }
 }
 
-void Momentum::add_compact(const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
-                           const FaceField<Real>& mu, Real theta_now, Real dt) {
-  if (!past_ || steps_taken < damped_steps) {
-    viscous_compact(rhs_, mu, u, u_b, open_face_, weights_, mesh_);
-  } else {
-    const Real back = (theta_now - 0.5) * dt / dt_old;
-    for (Index c = 0; c < mesh_.n_cells; ++c) past_->u[c] = u[c] - back * (u[c] - past_->u[c]);
-    for (Index b = 0; b < mesh_.n_boundary(); ++b)
-      past_->u_b[b] = u_b[b] - back * (u_b[b] - past_->u_b[b]);
-    viscous_compact(rhs_, mu, past_->u, past_->u_b, open_face_, weights_, mesh_);
-  }
-  if (past_) past_->u.assign(u);
+void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
+  viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
+  if (!past_) return;
+  if (steps_taken >= damped_steps && (whole_past_ || theta_at(dt) == 0.5))
+    viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, past_->u, past_->u_b,
+                 boundary_, weights_, mesh_);
+  past_->u.assign(u);
 }
 
-void Momentum::set_rhs(const BoundaryField<Vec3>& u_b, const BoundaryField<Vec3>& u_b_new,
-                       const CellField<Vec3>& grad_p, const FaceField<Real>& mu,
-                       const FaceField<Real>& kappa, const Sources& sources, Real theta_now) {
+void Momentum::add_sources(const MomentumTerms& terms) {
   for (Index c = 0; c < mesh_.n_owned; ++c)
-    rhs_[c] += mesh_.V[c] * (sources.force[c] + sources.body - grad_p[c]);
+    rhs_[c] += mesh_.V[c] * (terms.force[c] + terms.body - terms.grad_p[c]);
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
     const Index b = f - mesh_.n_internal;
-    if (open_face_[b] == 0)
-      rhs_[mesh_.owner[f]] +=
-          (theta_now * mu[f] + kappa[f]) * weights_.g[f] * (u_b_new[b] - u_b[b]);
+    if (boundary_.open[b] == 0)
+      rhs_[mesh_.owner[f]] += (theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f] *
+                              (terms.u_b_new[b] - terms.u_b[b]);
   }
 }
 
-int Momentum::predict(CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
-                      const BoundaryField<Vec3>& u_b_new, const CellField<Vec3>& grad_p,
-                      const CellField<Tensor>& L, const FaceField<Real>& phi,
-                      const FaceField<Real>& mu, const FaceField<Real>& kappa, bool mu_varies,
-                      bool stiff, const Sources& sources, Real dt) {
-  const Real theta_now = steps_taken < damped_steps ? 1.0 : theta_at(dt);
-  if (mu_varies || stiff || assembled_ != std::array{theta_now, dt})
-    assemble(mu, kappa, theta_now, dt);
+int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
+  const std::array now{steps_taken < damped_steps ? 1.0 : theta_at(dt), dt};
+  if (assembled_[0] != now[0]) set_theta(now[0]);
+  if (terms.mu_varies || terms.stiff || assembled_ != now) assemble(terms.mu, terms.kappa, dt);
+  assembled_ = now;
 
   rhs_.fill({});
-  add_convection(phi, u, u_b, L, dt);
-  if (has_rest_) add_rest(mu, L, dt);
-  add_compact(u, u_b, mu, theta_now, dt);
-  set_rhs(u_b, u_b_new, grad_p, mu, kappa, sources, theta_now);
+  add_convection(u, terms, dt);
+  add_rest(terms, dt);
+  add_compact(u, terms, dt);
+  add_sources(terms);
 
   const Index dim = mesh_.dim;
   const std::vector<Real>& diagonal = system_.matrix().diagonal;

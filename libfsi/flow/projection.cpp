@@ -26,7 +26,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const FaceWeights& weights, const Mesh& mesh) {
   const auto damped = [&](Index f, Real dt) {
     const Real implicit =
-        terms.theta * terms.mu[f] + terms.kappa[f] + 2 * terms.strained * terms.elastic[f];
+        terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.strained * terms.elastic[f];
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
@@ -36,22 +36,25 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     return std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));
   };
   for (Index f = 0; f < mesh.n_internal; ++f) {
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Index P = mesh.owner[f], N = mesh.neighbour[f], i = weights.place[f];
     const Real lambda = weights.lambda[f];
-    Vec3 u_f = u[P] + lambda * (u[N] - u[P]);
-    if (weights.skewed)
-      u_f += (1 - lambda) * dot(terms.L[P], weights.skew[f]) +
-             lambda * dot(terms.L[N], weights.skew[f]);
-    const Vec3 grad_f = (1 - lambda) * terms.grad_p[P] + lambda * terms.grad_p[N];
-    const Real brace = dot(grad_f, mesh.d[f]) - (terms.p[N] - terms.p[P]) + terms.balance[f];
-    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f, time(f, u_f)) * weights.g[f] * brace;
+    Vec3 u_f = lambda * u[P] + (1 - lambda) * u[N];
+    const Vec3 grad_f = lambda * terms.grad_p[P] + (1 - lambda) * terms.grad_p[N];
+    Real brace =
+        dot(grad_f, mesh.Sf[f]) + weights.g[f] * (terms.balance[f] - (terms.p[N] - terms.p[P]));
+    if (i >= 0) {
+      u_f += dot(terms.L_f[i], weights.from_mirror(f, mesh));
+      brace -= dot(terms.grad_p_f[i], weights.k[f]);
+    }
+    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f, time(f, u_f)) * brace;
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
-    const Index b = f - mesh.n_internal, P = mesh.owner[f];
+    const Index b = f - mesh.n_internal, P = mesh.owner[f], i = weights.place[f];
     phi[f] = dot(u_b[b], mesh.Sf[f]);
     if (open_face[b] == 0) continue;
-    const Real brace = dot(terms.grad_p[P], mesh.d[f]) - (terms.p_b[b] - terms.p[P]);
-    phi[f] += damped(f, terms.dt) * weights.g[f] * brace;
+    Real brace = dot(terms.grad_p[P], mesh.Sf[f]) - weights.g[f] * (terms.p_b[b] - terms.p[P]);
+    if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
+    phi[f] += damped(f, terms.dt) * brace;
   }
 }
 
@@ -59,12 +62,13 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
                        const std::vector<Condition>& conditions, Method method, int correctors)
     : mesh_(mesh),
       weights_(weights),
-      correctors_(weights.non_orthogonal ? correctors : 0),
+      correctors_(weights.uneven ? correctors : 0),
       open_(any(pressure_given(conditions))),
       open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
       adjustable_(open_face_.size(), 0),
       stencil_(mesh, weights, pressure_given(conditions)),
-      zero_(mesh),
+      first_(mesh),
+      grad_f_(weights.irregular.size()),
       b_(static_cast<std::size_t>(mesh.n_owned)),
       system_(mesh, "p", method, !open_, 1e-6) {
   for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -73,10 +77,13 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
       adjustable_[f - mesh.n_internal] =
           std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
     }
-  Sum area;
-  for (Index b = 0; b < mesh.n_boundary(); ++b)
+  Sum area, conductance;
+  for (Index b = 0; b < mesh.n_boundary(); ++b) {
     if (adjustable_[b] != 0) area.add(norm(mesh.Sf[mesh.n_internal + b]));
+    if (open_face_[b] != 0) conductance.add(weights.g[mesh.n_internal + b]);
+  }
   adjustable_area_ = area.total();
+  conductance_ = conductance.total();
 
   FaceMatrix matrix(mesh);
   for (Index f = 0; f < mesh.n_faces; ++f) {
@@ -92,6 +99,18 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
   system_.assemble(matrix);
 }
 
+void Projection::set_face_gradient(const CellField<Real>& q, const BoundaryField<Real>& q_b) {
+  if (!weights_.uneven) return;
+  gradient(first_, q, q_b, stencil_.cells, mesh_);
+  stencil_.at_faces.set(grad_f_, first_);
+}
+
+void Projection::set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
+                              const BoundaryField<Real>& p_b) {
+  set_face_gradient(p, p_b);
+  pressure_gradient(grad, grad_f_, p, p_b, stencil_.cells, mesh_);
+}
+
 void Projection::balance_boundary(FaceField<Real>& phi) const {
   if (open_ || adjustable_area_ == 0) return;
   Sum net;
@@ -101,57 +120,67 @@ void Projection::balance_boundary(FaceField<Real>& phi) const {
     if (adjustable_[f - mesh_.n_internal] != 0) phi[f] -= excess * norm(mesh_.Sf[f]);
 }
 
-void Projection::outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad_q, bool correct) {
-  // b = -sum_f (phi_f - k . (grad q)_f)
+// b = -sum_f (phi_f - k . (grad q)_f), at openings less g q_b
+void Projection::set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b) {
   std::fill(b_.begin(), b_.end(), 0.0);
   for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Index P = mesh_.owner[f];
+    const Index P = mesh_.owner[f], i = weights_.place[f];
+    const bool internal = f < mesh_.n_internal;
+    const bool open = !internal && open_face_[f - mesh_.n_internal] != 0;
     Real flux = phi[f];
-    if (f >= mesh_.n_internal) {
-      if (correct && open_face_[f - mesh_.n_internal] != 0) flux -= dot(grad_q[P], weights_.k[f]);
-      b_[P] -= flux;
-      continue;
-    }
-    const Index N = mesh_.neighbour[f];
-    if (correct)
-      flux -=
-          dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
+    if (i >= 0 && (internal || open)) flux -= dot(grad_f_[i], weights_.k[f]);
+    if (open) flux -= weights_.g[f] * q_b[f - mesh_.n_internal];
     if (P < mesh_.n_owned) b_[P] -= flux;
-    if (N < mesh_.n_owned) b_[N] += flux;
+    if (internal && mesh_.neighbour[f] < mesh_.n_owned) b_[mesh_.neighbour[f]] += flux;
   }
 }
 
+// phi = phi* - g (q_N - q_P) - k . (grad q)_f, with the grad q of the last right-hand side
+void Projection::subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
+                                   const BoundaryField<Real>& q_b) const {
+  for (Index f = 0; f < mesh_.n_internal; ++f)
+    phi[f] -= weights_.g[f] * (q[mesh_.neighbour[f]] - q[mesh_.owner[f]]);
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (const Index f = mesh_.n_internal + b; open_face_[b] != 0)
+      phi[f] -= weights_.g[f] * (q_b[b] - q[mesh_.owner[f]]);
+  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
+    const Index f = weights_.irregular[i];
+    if (f < mesh_.n_internal || open_face_[f - mesh_.n_internal] != 0)
+      phi[f] -= dot(grad_f_[i], weights_.k[f]);
+  }
+}
+
+// A constant added to q changes the flux of the openings alone: that which leaves no net flux is
+// the best correction in the span of the constant, whatever the solver's tolerance has left.
+void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
+  if (!open_) return;
+  Sum net;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) net.add(phi[f]);
+  const Real shift = -net.total() / conductance_;
+  for (Index c = 0; c < mesh_.n_cells; ++c) q[c] += shift;
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (open_face_[b] != 0) phi[mesh_.n_internal + b] += weights_.g[mesh_.n_internal + b] * shift;
+}
+
 Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
-                          CellField<Vec3>& scratch, Real absolute) {
+                          const BoundaryField<Real>& q_b, Real absolute) {
   balance_boundary(phi);
   // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
   // sine of the angle: two digits are enough there.
   constexpr Real loosened = 1e4;
   q.fill(0);
+  std::ranges::fill(grad_f_, Vec3{});
   Solve total;
   for (int corrector = 0; corrector <= correctors_; ++corrector) {
-    outflow(phi, grad_q, corrector > 0);
+    set_outflow(phi, q_b);
     const Solve solve = system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
     total.iterations += solve.iterations;
     total.residual = solve.residual;
-    if (corrector < correctors_) set_gradient(grad_q, scratch, q, zero_);
+    if (corrector < correctors_) set_face_gradient(q, q_b);
   }
-  // phi = phi* - g (q_N - q_P) - k . (grad q)_f with the same grad q as in the last right-hand side
-  const bool correct = correctors_ > 0;
-  for (Index f = 0; f < mesh_.n_internal; ++f) {
-    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-    phi[f] -= weights_.g[f] * (q[N] - q[P]);
-    if (correct)
-      phi[f] -=
-          dot((1 - weights_.lambda[f]) * grad_q[P] + weights_.lambda[f] * grad_q[N], weights_.k[f]);
-  }
-  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
-    if (open_face_[f - mesh_.n_internal] == 0) continue;
-    const Index P = mesh_.owner[f];
-    phi[f] += weights_.g[f] * q[P];
-    if (correct) phi[f] -= dot(grad_q[P], weights_.k[f]);
-  }
-  set_gradient(grad_q, scratch, q, zero_);
+  subtract_gradient(phi, q, q_b);
+  close_balance(phi, q);
+  set_gradient(grad_q, q, q_b);
   return total;
 }
 
@@ -169,13 +198,13 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
 // A p that differs from all neighbours' is answered by the predicted flux K = sum_f g |d|^2 / (2 V)
 // times as much as chi mu_c div u* makes of it, dim on quads and hexes: chi K must be less than 2.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, Real theta, const FaceWeights& weights,
-                          const Mesh& mesh) {
+                          const FaceField<Real>& kappa, const FaceField<Real>& theta,
+                          const FaceWeights& weights, const Mesh& mesh) {
   constexpr Real chi_max = 0.5, answer_max = 1.5;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Real mu_c = std::numeric_limits<Real>::max(), K = 0;
     for (const Index f : mesh.cell_faces[c]) {
-      mu_c = std::min(mu_c, theta * mu[f] + kappa[f]);
+      mu_c = std::min(mu_c, theta[f] * mu[f] + kappa[f]);
       K += weights.g[f] * norm2(mesh.d[f]) / (2 * mesh.V[c]);
     }
     p[c] -= std::min(chi_max, answer_max / K) * mu_c * div[c];

@@ -8,34 +8,43 @@
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/operators/linear_system.hpp"
+#include "libfsi/operators/vertex_mean.hpp"
 
 namespace fsi::flow {
 
 /// What enters the face flux besides u*.
 struct FluxTerms {
+  const std::vector<Tensor>& L_f;  ///< of u*, at irregular faces
   const CellField<Real>& p;
   const CellField<Vec3>& grad_p;
-  const BoundaryField<Real>& p_b;  ///< read on openings only
-  const CellField<Tensor>& L;      ///< velocity gradient, read on skewed meshes only
+  const std::vector<Vec3>& grad_p_f;  ///< of p at irregular faces
+  const BoundaryField<Real>& p_b;     ///< read on openings only
   const FaceField<Real>&
       balance;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
   const FaceField<Real>& mu;
+  const FaceField<Real>& theta;
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
-  Real theta = 0.5, rho = 1, dt = 0;
+  Real rho = 1, dt = 0;
   Real strained = 0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
-///   phi = (u*)_f . S + d_f g { (grad p)_f . d - (p_N - p_P) + c_f },
-///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G lambda_B) / |d|^2),
-/// the last where the flux strains the solid: an elastic normal stress that alternates from cell to
-/// cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a step, no more
-/// than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| / |u_f|: the jump
-/// at the surface of a solid would else leak through it with a flux in proportion to dt. The brace
-/// compares the compact with the averaged gradient of p and of the elastic normal stress; it
-/// vanishes for linear fields. Boundary: prescribed velocity, or the same with p_b at openings. On
-/// return every face of phi is set. u: owned and halo.
+///   phi = U(u*)_f . S + d_f { U(grad p)_f . S - (g (p_N - p_P) + k . (grad p)_f) + g c_f },
+///   U(u)_f = lambda u_P + (1 - lambda) u_N (+ L_f . (x_f - x_m) for u*),
+///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G lambda_B) / |d|^2).
+/// Each cell has the weight of its own part of the way, x_m = x_P + (1 - lambda) d. Then the sum
+/// over faces of U . S and the pressure's gradient are adjoint but for the skewness, and with d_f =
+/// dt and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A the Laplacian of the
+/// compact gradients, M of the averaged ones: between 0 and 2 A on any mesh, so nothing grows
+/// [Trias14]. The brace compares the compact with the averaged gradient of p and of the elastic
+/// normal stress; it vanishes for linear fields.
+/// The last part of d_f where the flux strains the solid: an elastic normal stress that alternates
+/// from cell to cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a
+/// step, no more than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| /
+/// |u_f|: the jump at the surface of a solid would else leak through it with a flux in proportion
+/// to dt. Boundary: prescribed velocity, or the same with p_b at openings. On return every face of
+/// phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
@@ -48,26 +57,31 @@ class Projection {
   Projection(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
              Method method, int correctors);
 
-  /// phi: every face set. On return phi is divergence-free to the solver's tolerance; q and grad_q
-  /// (owned and halo) are what u and p are to be corrected with. absolute: see LinearSystem::solve,
-  /// in units of volume per time. scratch: overwritten. Errors: Error{numerics}.
+  /// phi: every face set. q_b: of q on openings. On return phi is divergence-free to the solver's
+  /// tolerance, its sum over the boundary zero to round-off; q and grad_q (owned and halo) are what
+  /// u and p are to be corrected with. absolute: see LinearSystem::solve, in units of volume per
+  /// time. Errors: Error{numerics}.
   Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
-                CellField<Vec3>& scratch, Real absolute);
+                const BoundaryField<Real>& q_b, Real absolute);
 
-  /// Collective. grad p, owned and halo (operators/gradient.hpp); p: owned and halo, p_b: at
-  /// openings. scratch: overwritten.
-  void set_gradient(CellField<Vec3>& grad, CellField<Vec3>& scratch, const CellField<Real>& p,
-                    const BoundaryField<Real>& p_b) const {
-    pressure_gradient(grad, scratch, p, p_b, stencil_, mesh_);
-  }
+  /// Collective. grad p, owned and halo, and at irregular faces (operators/gradient.hpp); p: owned
+  /// and halo, p_b: at openings.
+  void set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
+                    const BoundaryField<Real>& p_b);
+  /// At irregular faces, of the last `set_gradient`; `project` overwrites it.
+  const std::vector<Vec3>& face_gradient() const { return grad_f_; }
   /// Where the pressure is given it counts as a value, elsewhere it is extrapolated to the wall.
-  const GradientStencil& stencil() const { return stencil_; }
+  PressureStencil& stencil() { return stencil_; }
   /// Whether some patch gives the pressure.
   bool open() const { return open_; }
 
  private:
-  void outflow(const FaceField<Real>& phi, const CellField<Vec3>& grad_q, bool correct);
+  void set_face_gradient(const CellField<Real>& q, const BoundaryField<Real>& q_b);
+  void set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b);
+  void subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
+                         const BoundaryField<Real>& q_b) const;
   void balance_boundary(FaceField<Real>& phi) const;
+  void close_balance(FaceField<Real>& phi, CellField<Real>& q) const;
 
   const Mesh& mesh_;
   const FaceWeights& weights_;
@@ -75,8 +89,10 @@ class Projection {
   bool open_ = false;
   std::vector<char> open_face_, adjustable_;  // [n_boundary]
   Real adjustable_area_ = 0;
-  GradientStencil stencil_;
-  BoundaryField<Real> zero_;
+  Real conductance_ = 0;  // sum of g over the openings of all ranks
+  PressureStencil stencil_;
+  CellField<Vec3> first_;     // the plain gradient, on irregular meshes
+  std::vector<Vec3> grad_f_;  // at irregular faces
   std::vector<Real> b_;
   LinearSystem system_;
 };
@@ -88,8 +104,8 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
 /// viscous term makes of the correction grad q. chi = 1/2, less in cells of poor shape. div: of the
 /// predicted flux, owned. p: owned and halo.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, Real theta, const FaceWeights& weights,
-                          const Mesh& mesh);
+                          const FaceField<Real>& kappa, const FaceField<Real>& theta,
+                          const FaceWeights& weights, const Mesh& mesh);
 
 /// max over owned cells of all ranks of |sum_f phi_f| / V.
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);

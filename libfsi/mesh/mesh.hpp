@@ -77,6 +77,9 @@ struct Mesh {
   std::uint64_t hash = 0;  ///< of the mesh as read; a checkpoint of another mesh is refused
 
   Index n_boundary() const { return n_faces - n_internal; }
+  /// Whether a cell is a triangle or a tetrahedron, a quadrilateral or a hexahedron.
+  bool simplex(Index c) const { return static_cast<int>(cell_points[c].size()) == dim + 1; }
+  bool brick(Index c) const { return static_cast<int>(cell_points[c].size()) == 1 << dim; }
 
   /// Corner i of face f as seen from cell c (its owner, or its neighbour across a period).
   Vec3 corner(Index f, Index i, Index c) const {

@@ -5,6 +5,8 @@
 namespace fsi {
 namespace {
 
+constexpr Real singular = 0.05;  // of the determinant of a cell's matrix, 1 on a good cell
+
 void add_to(Vec3& grad, Real dq, const Vec3& g) { grad += dq * g; }
 void add_to(Tensor& grad, const Vec3& dq, const Vec3& g) { grad += outer(dq, g); }
 
@@ -25,22 +27,20 @@ void gradient_of(CellField<Grad>& grad, const CellField<T>& q, const BoundaryFie
   mesh.halo.update(grad);
 }
 
-/// (1/V) sum_f (first)_f . skew S outward of cell c, first . d S at the boundary without a value.
-Vec3 skewness(const CellField<Vec3>& first, const GradientStencil& stencil, const Mesh& mesh,
-              Index c) {
-  const FaceWeights& weights = stencil.weights;
-  Vec3 sum;
-  for (const Index f : mesh.cell_faces[c]) {
+/// Of cells whose boundary faces have no value on some.
+void set_closed(GradientStencil& stencil, const Mesh& mesh) {
+  constexpr Tensor unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::vector<Index> at(static_cast<std::size_t>(mesh.n_owned), -1);
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f];
-    if (f >= mesh.n_internal) {
-      if (stencil.given[f - mesh.n_internal] == 0) sum += dot(first[c], mesh.d[f]) * mesh.Sf[f];
-      continue;
+    if (stencil.given[f - mesh.n_internal] != 0 || mesh.simplex(P)) continue;
+    if (at[P] < 0) {
+      at[P] = static_cast<Index>(stencil.closed.size());
+      stencil.closed_cells.push_back(P), stencil.closed.push_back(unit);
     }
-    const Real lambda = weights.lambda[f];
-    const Vec3 mean = (1 - lambda) * first[P] + lambda * first[mesh.neighbour[f]];
-    sum += (P == c ? 1 : -1) * dot(mean, weights.skew[f]) * mesh.Sf[f];
+    stencil.closed[at[P]] += (-1 / mesh.V[P]) * outer(mesh.Sf[f], mesh.d[f]);
   }
-  return (1 / mesh.V[c]) * sum;
+  for (Tensor& M : stencil.closed) M = std::abs(det(M)) < singular ? unit : inverse(M);
 }
 
 }  // namespace
@@ -77,7 +77,8 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (mesh.dim == 2) M[c].zz = 1;
     // A corner cell has too few neighbours for a linear fit when det M vanishes (1 on a good cell).
-    if (std::abs(det(M[c])) < 0.05) {
+    if (std::abs(det(M[c])) < singular) {
+      unfit.push_back(c);
       M[c] = -1.0 * fallback[c];
       M[c].xx += 1, M[c].yy += 1, M[c].zz += 1;
     }
@@ -88,6 +89,7 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
     if (f < mesh.n_internal && mesh.neighbour[f] < mesh.n_owned)
       neighbour[f] = dot(M[mesh.neighbour[f]], neighbour[f]);
   }
+  set_closed(*this, mesh);
 }
 
 void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryField<Real>& q_b,
@@ -95,32 +97,37 @@ void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryFie
   gradient_of(grad, q, q_b, stencil, mesh);
 }
 
-void pressure_gradient(CellField<Vec3>& grad, CellField<Vec3>& first, const CellField<Real>& q,
-                       const BoundaryField<Real>& q_b, const GradientStencil& stencil,
-                       const Mesh& mesh) {
+void pressure_gradient(CellField<Vec3>& grad, const std::vector<Vec3>& g_f,
+                       const CellField<Real>& q, const BoundaryField<Real>& q_b,
+                       const GradientStencil& stencil, const Mesh& mesh) {
   const FaceWeights& weights = stencil.weights;
-  if (!weights.skewed) return gradient(grad, q, q_b, stencil, mesh);
-  gradient(first, q, q_b, stencil, mesh);
   grad.fill({});
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Real lambda = weights.lambda[f], rise = q[N] - q[P];
-    const Real rest = dot((1 - lambda) * first[P] + lambda * first[N], weights.skew[f]);
-    grad[P] += (lambda * rise + rest) * mesh.Sf[f];
-    grad[N] += ((1 - lambda) * rise - rest) * mesh.Sf[f];
+    grad[P] += (lambda * rise) * mesh.Sf[f];
+    grad[N] += ((1 - lambda) * rise) * mesh.Sf[f];
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f], b = f - mesh.n_internal;
-    const Real rise = stencil.given[b] != 0 ? q_b[b] - q[P] : dot(first[P], mesh.d[f]);
-    grad[P] += rise * mesh.Sf[f];
+    if (stencil.given[b] != 0) grad[P] += (q_b[b] - q[P]) * mesh.Sf[f];
+  }
+  for (std::size_t i = 0; i < weights.irregular.size(); ++i) {
+    const Index f = weights.irregular[i], P = mesh.owner[f];
+    if (f < mesh.n_internal) {
+      const Vec3 rest = dot(g_f[i], weights.skew[f]) * mesh.Sf[f];
+      grad[P] += rest;
+      grad[mesh.neighbour[f]] -= rest;
+    } else if (stencil.given[f - mesh.n_internal] == 0 && mesh.simplex(P)) {
+      grad[P] += dot(g_f[i], mesh.d[f]) * mesh.Sf[f];
+    }
   }
   for (Index c = 0; c < mesh.n_owned; ++c) grad[c] *= 1 / mesh.V[c];
+  for (std::size_t i = 0; i < stencil.closed.size(); ++i) {
+    Vec3& own = grad[stencil.closed_cells[i]];
+    own = dot(stencil.closed[i], own);
+  }
   mesh.halo.update(grad);
-}
-
-void add_skewness(CellField<Vec3>& sum, const CellField<Vec3>& first,
-                  const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells) {
-  for (const Index c : cells) sum[c] += skewness(first, stencil, mesh, c);
 }
 
 void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,

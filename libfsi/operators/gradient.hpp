@@ -24,28 +24,29 @@ struct GradientStencil {
   std::vector<Vec3> owner;      ///< [n_faces] g_Pf; zero on patches without a value
   std::vector<Vec3> neighbour;  ///< [n_internal] g_Nf
   std::vector<char> given;      ///< [n_boundary] 1 on patches with a value
+  std::vector<Index> unfit;     ///< owned cells with too few neighbours for a linear fit
+  /// Owned cells, not triangles or tetrahedra, with faces without a value, and for each of them
+  /// (I - (1/V) sum S (x) d over these)^-1, I where that is singular: a pressure's own gradient.
+  std::vector<Index> closed_cells;
+  std::vector<Tensor> closed;
 };
 
 /// grad q in every owned cell, halo updated. q: owned and halo set; q_b: values on the boundary
 /// faces, read only where the stencil has weights.
 void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryField<Real>& q_b,
               const GradientStencil& stencil, const Mesh& mesh);
-/// The gradient of a pressure, whose force must be one of face values: with `first` the gradient
-/// above,
-///   grad q_c = (1/V) sum_f (q_f - q_c) S,
-///   q_f = (1 - lambda) q_P + lambda q_N + (first)_f . skew,
-/// S outward, q_P + first . d where the boundary has no value. Exact for linear fields too; without
-/// skewness the same. The weights g of a face's two cells differ on irregular cells, and a pressure
-/// that alternates from cell to cell, as these make it, has a mean force with them: on a Delaunay
-/// mesh 1 to 2 % of the drag on the walls of a channel, whatever its fineness. first: set where the
-/// mesh is skewed.
-void pressure_gradient(CellField<Vec3>& grad, CellField<Vec3>& first, const CellField<Real>& q,
-                       const BoundaryField<Real>& q_b, const GradientStencil& stencil,
-                       const Mesh& mesh);
-/// sum_c += (1/V) sum_f (first)_f . skew S in the listed owned cells, first . d S on boundary faces
-/// without a value: the rest of q_f above. first: owned and halo.
-void add_skewness(CellField<Vec3>& sum, const CellField<Vec3>& first,
-                  const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+/// The gradient of a pressure, whose force must be one of face values,
+///   grad q_c = (1/V) sum_f (q_f - q_c) S,   q_f = (1 - lambda) q_P + lambda q_N + (grad q)_f .
+///   skew,
+/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets, and but for the
+/// skewness it is the adjoint of the flux of lambda u_P + (1 - lambda) u_N, so that a pressure
+/// works on a velocity through the divergence of that alone [Trias14]. Exact for linear fields.
+/// Where the boundary has no value, q_f is q_P + grad q_c . d, in triangles and tetrahedra, whose
+/// own gradient would answer to q_P four times as strongly, q_P + (grad q)_f . d. Owned cells, halo
+/// updated. g_f: of q at the irregular faces, by VertexMean; q: owned and halo.
+void pressure_gradient(CellField<Vec3>& grad, const std::vector<Vec3>& g_f,
+                       const CellField<Real>& q, const BoundaryField<Real>& q_b,
+                       const GradientStencil& stencil, const Mesh& mesh);
 /// L_ij = d u_i / d x_j (L.xy = du_x/dy).
 void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
               const GradientStencil& stencil, const Mesh& mesh);

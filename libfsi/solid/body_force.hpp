@@ -12,15 +12,16 @@ namespace fsi::solid {
 /// force taken cell by cell leaves there what no pressure balances.
 class BodyForce {
  public:
-  BodyForce(const Mesh& mesh, const Vec3& a) : mesh_(mesh), a_(a), level_(mesh) {}
+  BodyForce(const Mesh& mesh, const FaceWeights& weights, const Vec3& a)
+      : mesh_(mesh), a_(a), level_(mesh, weights) {}
 
   /// Collective. With F_f = alpha_f a . d, the pressure's rise over a face that balances it:
   ///   force_c   += f_c, the gradient of that pressure (Level)
   ///   balance_f += F_f - (f)_f . d, its counterpart in the face flux
-  /// Where p_N - p_P = F_f on every face, neither cells nor faces are accelerated. stencil: that of
-  /// the pressure; alpha_f: on the band's faces. force: owned and halo.
+  /// Where p_N - p_P = F_f on every face, neither cells nor faces are accelerated. alpha_f: on the
+  /// band's faces. force: owned and halo.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const FaceField<Real>& alpha_f,
-             const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+             PressureStencil& pressure, const Band& band);
 
  private:
   const Mesh& mesh_;

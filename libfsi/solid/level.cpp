@@ -2,6 +2,11 @@
 
 namespace fsi::solid {
 
+Level::Level(const Mesh& mesh, const FaceWeights& weights)
+    : mesh_(mesh), first_(mesh), whole_(mesh), at_faces_(weights.irregular.size()) {
+  if (weights.uneven) around_.emplace(mesh);
+}
+
 void Level::clear() {
   for (const Index f : faces_) {
     const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
@@ -11,7 +16,7 @@ void Level::clear() {
   faces_.clear();
 }
 
-void Level::add(Index f, Real J, const FaceWeights& weights, const GradientStencil& stencil) {
+void Level::add(Index f, Real J, const GradientStencil& stencil) {
   const Index P = mesh_.owner[f];
   faces_.push_back(f);
   first_[P] += J * stencil.owner[f];
@@ -20,28 +25,52 @@ void Level::add(Index f, Real J, const FaceWeights& weights, const GradientStenc
     return;
   }
   const Index N = mesh_.neighbour[f];
+  const Real lambda = stencil.weights.lambda[f];
   first_[N] -= J * stencil.neighbour[f];
-  if (!weights.skewed) return;
-  const Real lambda = weights.lambda[f];
   whole_[P] += (lambda * J / mesh_.V[P]) * mesh_.Sf[f];
   whole_[N] += ((1 - lambda) * J / mesh_.V[N]) * mesh_.Sf[f];
 }
 
-void Level::apply(CellField<Vec3>& force, FaceField<Real>& balance, const FaceWeights& weights,
-                  const GradientStencil& stencil, const Band& band) {
-  mesh_.halo.update(first_);  // all of it: cells beyond the band have a part of the outermost rises
-  if (weights.skewed) {
-    cells_ = band.cells();  // the neighbours of cells at a rise get a part as well
-    add_skewness(whole_, first_, stencil, mesh_, band.cells());
-    mesh_.halo.update(whole_);
+void Level::add_irregular(const GradientStencil& stencil, const Band& band) {
+  const FaceWeights& weights = stencil.weights;
+  for (const Index f : band.faces()) {
+    const Index i = weights.place[f], P = mesh_.owner[f];
+    if (i < 0) continue;
+    if (f < mesh_.n_internal) {
+      const Index N = mesh_.neighbour[f];
+      const Vec3 rest = dot(at_faces_[i], weights.skew[f]) * mesh_.Sf[f];
+      whole_[P] += (1 / mesh_.V[P]) * rest;
+      whole_[N] -= (1 / mesh_.V[N]) * rest;
+    } else if (stencil.given[f - mesh_.n_internal] == 0 && mesh_.simplex(P)) {
+      whole_[P] += (dot(at_faces_[i], mesh_.d[f]) / mesh_.V[P]) * mesh_.Sf[f];
+    }
   }
-  const CellField<Vec3>& level = weights.skewed ? whole_ : first_;
-  for (const Index c : band.cells()) force[c] += level[c];
+}
+
+void Level::apply(CellField<Vec3>& force, FaceField<Real>& balance, PressureStencil& pressure,
+                  const Band& of_rises) {
+  const GradientStencil& stencil = pressure.cells;
+  const FaceWeights& weights = stencil.weights;
+  constexpr Real listed = 0.5;
+  if (around_) around_->rebuild(of_rises.listed(), listed);
+  const Band& band = around_ ? *around_ : of_rises;
+  mesh_.halo.update(first_);  // all of it: cells beyond the band have a part of the outermost rises
+  cells_ = band.cells();
+  pressure.at_faces.set(at_faces_, first_, band);
+  add_irregular(stencil, band);
+  for (std::size_t i = 0; i < stencil.closed.size(); ++i) {
+    Vec3& own = whole_[stencil.closed_cells[i]];
+    own = dot(stencil.closed[i], own);
+  }
+  mesh_.halo.update(whole_);
+  for (const Index c : band.cells()) force[c] += whole_[c];
   for (const Index f : band.faces()) {
     if (f >= mesh_.n_internal) continue;
     const Real lambda = weights.lambda[f];
-    balance[f] -=
-        dot((1 - lambda) * level[mesh_.owner[f]] + lambda * level[mesh_.neighbour[f]], mesh_.d[f]);
+    const Vec3 mean = lambda * whole_[mesh_.owner[f]] + (1 - lambda) * whole_[mesh_.neighbour[f]];
+    Real along = dot(mean, mesh_.Sf[f]);
+    if (const Index i = weights.place[f]; i >= 0) along -= dot(at_faces_[i], weights.k[f]);
+    balance[f] -= along / weights.g[f];
   }
 }
 

@@ -79,7 +79,7 @@ Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad)
       const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
       const Vec3 d = forward ? mesh_.d[f] : -mesh_.d[f];
       SymTensor face = psi[up] + (2 * share) * koren(psi[down] - psi[up], along(grad[up], d));
-      if (weights.skewed) face += along(grad[up], weights.skew[f]);
+      if (weights.place[f] >= 0) face += along(grad[up], weights.skew[f]);
       sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
     }
     const SymTensor strain = log_rate(L_[i], psi[c]);

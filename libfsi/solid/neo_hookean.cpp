@@ -4,20 +4,8 @@
 
 namespace fsi::solid {
 
-NeoHookean::NeoHookean(const Mesh& mesh, Real G) : mesh_(mesh), G_(G), level_(mesh) {}
-
-void NeoHookean::clear(CellField<Vec3>& force, FaceField<Real>& balance,
-                       CellField<SymGradient>& grad, const Band& band) {
-  for (const Index c : last_cells_) force[c] = {}, grad[c] = {};
-  for (const Index f : last_faces_) {
-    balance[f] = 0;
-    // The outermost faces push at cells beyond the band.
-    force[mesh_.owner[f]] = {};
-    if (f < mesh_.n_internal) force[mesh_.neighbour[f]] = {};
-  }
-  last_cells_ = band.cells();
-  last_faces_ = band.faces();
-}
+NeoHookean::NeoHookean(const Mesh& mesh, const FaceWeights& weights, Real G)
+    : mesh_(mesh), G_(G), level_(mesh, weights) {}
 
 void NeoHookean::push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
                             const FaceWeights& weights, const Band& band,
@@ -39,7 +27,7 @@ void NeoHookean::push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, co
     balance[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
     // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = alpha B
     SymTensor T = (1 - lambda) * alpha[P] * B[P] + lambda * alpha[N] * B[N];
-    if (weights.skewed)
+    if (weights.place[f] >= 0)
       T +=
           (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
     const Vec3 t = dot(G_ * dev(T), mesh_.Sf[f]);
@@ -49,8 +37,8 @@ void NeoHookean::push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, co
 }
 
 void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
-                            const FaceWeights& weights, const GradientStencil& stencil,
-                            const Band& band, const CellField<SymGradient>& grad) {
+                            const FaceWeights& weights, PressureStencil& pressure, const Band& band,
+                            const CellField<SymGradient>& grad) {
   const CellField<SymTensor>& B = solid.B;
   const CellField<Real>& alpha = solid.alpha;
   level_.clear();
@@ -72,35 +60,36 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
       return (1 - lambda) * along(grad[P], r) + lambda * along(grad[N], r);
     };
     SymTensor T = (1 - lambda) * B[P] + lambda * B[N];
-    if (weights.skewed) T += rise(weights.skew[f]);
+    if (weights.place[f] >= 0) T += rise(weights.skew[f]);
     const SymTensor tau = G_ * dev(T);
     const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
     const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);
     // alpha_f (tau - s I) + alpha_c s I, and the level part
     force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
     force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
-    level_.add(f, jump, weights, stencil);
+    level_.add(f, jump, pressure.cells);
     // what alpha dev B rises between the cells beyond the jump, less the mean of alpha grad dev B
     const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
                              (1 - lambda) * alpha[P] * along(grad[P], d) -
                              lambda * alpha[N] * along(grad[N], d);
     balance[f] = jump + dot(n, dot(G_ * dev(smooth), n));
   }
-  level_.apply(force, balance, weights, stencil, band);
+  level_.apply(force, balance, pressure, band);
 }
 
 void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
-                       const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                       const FaceWeights& weights, PressureStencil& pressure, const Band& band,
                        CellField<SymGradient>& grad) {
-  clear(force, balance, grad, band);
+  for (const Index c : last_cells_) grad[c] = {};
+  last_cells_ = band.cells();
   const bool sharp = solid.alpha_f != nullptr;
   if (sharp)
-    gradient(grad, solid.B, stencil, mesh_, band.core());
+    gradient(grad, solid.B, pressure.cells, mesh_, band.core());
   else
-    gradient(grad, solid.alpha, solid.B, stencil, mesh_, band.cells());
+    gradient(grad, solid.alpha, solid.B, pressure.cells, mesh_, band.cells());
   mesh_.halo.update(grad, band.listed());
   if (sharp)
-    push_sharp(force, balance, solid, weights, stencil, band, grad);
+    push_sharp(force, balance, solid, weights, pressure, band, grad);
   else
     push_mixed(force, balance, solid, weights, band, grad);
   mesh_.halo.update(force);

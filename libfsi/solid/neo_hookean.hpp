@@ -19,7 +19,7 @@ struct Strained {
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
 class NeoHookean {
  public:
-  NeoHookean(const Mesh& mesh, Real G);
+  NeoHookean(const Mesh& mesh, const FaceWeights& weights, Real G);
 
   /// Collective. tau = G dev(alpha B)                                     [Matsumiya25] (11)
   /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha B linear between cells, as in the paper.
@@ -30,29 +30,27 @@ class NeoHookean {
   /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
   /// At boundaries alpha B (with alpha_f: B) continues linearly.
   /// balance_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f that of the
-  /// cells' alpha times B, and that of the level part. It vanishes for a linear stress. Zero
-  /// outside the band of this and of the last call. force: owned and halo. grad: scratch that
-  /// nothing but the solid writes to, zero at first.
+  /// cells' alpha times B, and that of the level part. It vanishes for a linear stress. Both are
+  /// added to what is there. force: owned and halo after. grad: scratch that nothing but the solid
+  /// writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
-             const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+             const FaceWeights& weights, PressureStencil& pressure, const Band& band,
              CellField<SymGradient>& grad);
 
   Real G() const { return G_; }
 
  private:
-  void clear(CellField<Vec3>& force, FaceField<Real>& balance, CellField<SymGradient>& grad,
-             const Band& band);
   void push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
                   const FaceWeights& weights, const Band& band,
                   const CellField<SymGradient>& grad) const;
   void push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, const Strained& solid,
-                  const FaceWeights& weights, const GradientStencil& stencil, const Band& band,
+                  const FaceWeights& weights, PressureStencil& pressure, const Band& band,
                   const CellField<SymGradient>& grad);
 
   const Mesh& mesh_;
   Real G_;
-  Level level_;                                 // the jump of the normal stress
-  std::vector<Index> last_cells_, last_faces_;  // where something was written
+  Level level_;                    // the jump of the normal stress
+  std::vector<Index> last_cells_;  // where grad was written
 };
 
 /// A balance below 1e-9 G on the band's faces is none: traces of alpha and rounding leave it, and

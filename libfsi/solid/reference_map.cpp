@@ -94,7 +94,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, const Carrier& carrier, Real dt)
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
   Vec3 face = d[up] + (2 * share) * koren(d[down] - d[up], dot(slope_[up], way));
   Vec3 u = (1 - share) * carrier.u[up] + share * carrier.u[down];
-  if (weights.skewed) {
+  if (weights.place[f] >= 0) {
     face += dot(slope_[up], weights.skew[f]);
     u += dot(carrier.L[c], weights.skew[f]);
   }

@@ -9,16 +9,15 @@
 
 namespace fsi::solid {
 
-/// phi_f - u_f . S_f of an inner face, u_f linear with skewness correction as in the flux itself.
-/// L: set on both sides on skewed meshes.
+/// phi_f - u_f . S_f of an inner face, u_f as in the flux itself, with the cells' mean L.
+/// L: set on both sides of irregular faces.
 inline Real rest_of_flux(const Carrier& carrier, const Mesh& mesh, Index f) {
   const FaceWeights& weights = carrier.weights;
   const Index P = mesh.owner[f], N = mesh.neighbour[f];
   const Real lambda = weights.lambda[f];
-  Vec3 u_f = (1 - lambda) * carrier.u[P] + lambda * carrier.u[N];
-  if (weights.skewed)
-    u_f += (1 - lambda) * dot(carrier.L[P], weights.skew[f]) +
-           lambda * dot(carrier.L[N], weights.skew[f]);
+  Vec3 u_f = lambda * carrier.u[P] + (1 - lambda) * carrier.u[N];
+  if (weights.place[f] >= 0)
+    u_f += dot((1 - lambda) * carrier.L[P] + lambda * carrier.L[N], weights.from_mirror(f, mesh));
   return carrier.phi[f] - dot(u_f, mesh.Sf[f]);
 }
 
@@ -42,7 +41,7 @@ inline Vec3 velocity_of_fluxes(const Carrier& carrier, const CellField<Real>& al
 /// Gradient at owned cell c with the flux for the normal velocity of its faces,
 ///   L + (1/V) sum_f (phi_f - u_f . S_f) n (x) n,   n = S_f / |S_f|,
 /// the sum outward: exact for linear fields whose flux is theirs, its trace on an orthogonal mesh
-/// div phi. L: that of the cell's neighbours too on skewed meshes.
+/// div phi. L: that of the cell's neighbours too at irregular faces.
 inline Tensor with_flux(const Carrier& carrier, const Mesh& mesh, Index c) {
   Tensor sum;
   for (const Index f : mesh.cell_faces[c]) {

@@ -31,12 +31,13 @@ Vec3 shear(const Vec3& v, const Vec3& m, const Vec3& S) { return dot(m, S) * v +
 
 }  // namespace
 
-SurfaceTraction::SurfaceTraction(const Mesh& mesh, Real G, Viscosities mu)
+SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G,
+                                 Viscosities mu)
     : mesh_(mesh),
       G_(G),
       mu_(mu),
       mu_least_(std::max(mu.solid, mu.fluid / 4)),
-      level_(mesh),
+      level_(mesh, weights),
       touch_(mesh),
       L_(mesh),
       L_in_(mesh),
@@ -178,18 +179,18 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
 
 void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balance,
                                  const Surface& surface, const FaceWeights& weights,
-                                 const GradientStencil& stencil, const Band& band) {
+                                 PressureStencil& pressure, const Band& band) {
   const CellField<Real>& alpha = surface.alpha;
   for (const Index f : band.faces()) {
     if (!at_surface(surface, mesh_, f)) continue;
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     if (fitted_[P] + fitted_[N] == 0) continue;
     const FaceExcess at_face = excess_at(f, surface, weights);
-    const Real lambda = weights.lambda[f], s = at_face.s;
+    const Real s = at_face.s;
     const Vec3 S = mesh_.Sf[f], du = surface.u[N] - surface.u[P];
     // what the momentum equation has in its place: the mean viscosity
-    const Tensor L_mean = (1 - lambda) * surface.L[P] + lambda * surface.L[N];
-    const Vec3 along_S = weights.g[f] * du + dot(L_mean, weights.k[f]);
+    Vec3 along_S = weights.g[f] * du;
+    if (const Index i = weights.place[f]; i >= 0) along_S += dot(surface.L_f[i], weights.k[f]);
     const Real mean_excess = surface.mu[f] - mu_.fluid;
     const auto flux_of = [&](Index c) {
       return at_face.flux + (alpha[c] * s) * S -
@@ -198,7 +199,7 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balanc
     force[P] += (1 / mesh_.V[P]) * flux_of(P);
     force[N] -= (1 / mesh_.V[N]) * flux_of(N);
     const Real jump = s * (alpha[N] - alpha[P]);
-    level_.add(f, jump, weights, stencil);
+    level_.add(f, jump, pressure.cells);
     balance[f] += jump;
   }
 }
@@ -232,7 +233,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
 
 void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
                             const Surface& surface, const FaceWeights& weights,
-                            const GradientStencil& stencil, const Band& band) {
+                            PressureStencil& pressure, const Band& band) {
   clear(band);
   mark(surface, band);
   for (const Index c : band.cells())
@@ -240,9 +241,9 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
   take_own_strain(surface, band);
   mesh_.halo.update(L_in_);
-  add_excess(force, balance, surface, weights, stencil, band);
+  add_excess(force, balance, surface, weights, pressure, band);
   add_transposed(force, surface, weights, band);
-  level_.apply(force, balance, weights, stencil, band);
+  level_.apply(force, balance, pressure, band);
   mesh_.halo.update(force);
 }
 

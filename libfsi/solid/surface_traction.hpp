@@ -14,8 +14,9 @@ namespace fsi::solid {
 /// What the traction is made of; cell fields owned and halo.
 struct Surface {
   const CellField<Vec3>& u;
-  const CellField<Tensor>& L;     ///< velocity gradient
-  const CellField<SymTensor>& B;  ///< known around the surface
+  const CellField<Tensor>& L;      ///< velocity gradient
+  const std::vector<Tensor>& L_f;  ///< at irregular faces, as the momentum equation has it
+  const CellField<SymTensor>& B;   ///< known around the surface
   const CellField<Real>& alpha;
   const FaceField<Real>& alpha_f;   ///< part of solid on the way between the centres
   const FaceField<Vec3>& normal_f;  ///< of the surface there, zero away from it
@@ -54,12 +55,12 @@ struct Viscosities {
 class SurfaceTraction {
  public:
   /// Collective.
-  SurfaceTraction(const Mesh& mesh, Real G, Viscosities mu);
+  SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G, Viscosities mu);
 
   /// Collective. Adds to the force, and the jump of s to the face flux's balance. band: that of the
   /// elastic stress, force and balance cleared there.
   void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
-             const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+             const FaceWeights& weights, PressureStencil& pressure, const Band& band);
 
   /// Viscosities of more than this many times the fluid's are left to the mean of the cells: a
   /// stress of that size, taken explicitly, makes the strain rough.
@@ -83,7 +84,7 @@ class SurfaceTraction {
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
   void add_excess(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
-                  const FaceWeights& weights, const GradientStencil& stencil, const Band& band);
+                  const FaceWeights& weights, PressureStencil& pressure, const Band& band);
   void add_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
                       const Band& band) const;
   /// The excess times S at a face but for alpha_c s I, over the lesser viscosity; and s.

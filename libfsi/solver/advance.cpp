@@ -53,6 +53,14 @@ bool Solver::stuck(Real dt) {
   return tiny_steps_ > most;
 }
 
+void Solver::synchronise() {
+  if (!body_ || body_->t == state_.t) return;
+  advance_interface(state_.t);
+  carry_pressure();
+  update_gradients();
+  transport_elastic();
+}
+
 Real Solver::advance(Real dt) {
   if (!backup_) hold_backup();
   backup_->keep();

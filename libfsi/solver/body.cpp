@@ -29,7 +29,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       advect_scratch(mesh),
       band(mesh),
       kinematics(make(mesh, kind)),
-      law(mesh, G),
+      law(mesh, weights, G),
       stiffness(mesh),
       grad(mesh),
       filled(vof::fill(alpha, mesh, shape)) {

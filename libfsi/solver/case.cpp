@@ -41,6 +41,16 @@ Physics read_physics(Options& options) {
   return physics;
 }
 
+FlowSetup read_flow(Options& options) {
+  FlowSetup flow;
+  flow.convection = flow::convection_of(options.choice(
+      "flow_convection", "linear", flow::convection_names(),
+      "velocity at a face: linear between its cells, their mean (symmetric: makes no "
+      "kinetic energy on any mesh), linear_upwind, or that without new extremes "
+      "(limited)"));
+  return flow;
+}
+
 TimeSetup read_time(Options& options) {
   TimeSetup time;
   time.end =
@@ -107,6 +117,7 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   Case result;
   result.mesh = read_mesh_options(options, path);
   result.physics = read_physics(options);
+  result.flow = read_flow(options);
   result.solid = read_solid(options, result.physics);
   result.time = read_time(options);
   result.output = read_output(options, driver);

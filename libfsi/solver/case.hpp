@@ -40,6 +40,7 @@ struct SolidSetup {
 struct Case {
   MeshOptions mesh;
   Physics physics;
+  FlowSetup flow;  ///< without conditions
   SolidSetup solid;
   TimeSetup time;
   OutputSetup output;

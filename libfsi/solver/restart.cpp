@@ -16,6 +16,8 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
   snapshot.add("momentum_dt_before", &momentum_.dt_before);
   snapshot.add("momentum_steps", &momentum_.steps_taken);
+  for (flow::Openings::One& opening : openings_.all())
+    snapshot.add("pressure_" + opening.patch.name, &opening.pressure);
   snapshot.add("dt_cap", &dt_cap_);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
   if (body_) body_->list(snapshot);

@@ -19,7 +19,9 @@ Method pressure_method(const Mesh& mesh) {
 }
 
 std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
-  return std::vector<bool>(conditions.size(), true);  // zero-gradient values count as well
+  std::vector<bool> given;
+  for (const Condition& condition : conditions) given.push_back(!fixes_pressure(condition));
+  return given;
 }
 
 }  // namespace
@@ -47,6 +49,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       u_b_(mesh),
       u_b_new_(mesh),
       p_b_(mesh),
+      q_b_(mesh),
       grad_p_(mesh),
       grad_q_(mesh),
       force_(mesh),
@@ -57,14 +60,16 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       kappa_(mesh),
       balance_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
+      vertex_mean_(mesh, u_stencil_),
+      L_f_(weights_.irregular.size()),
+      openings_(mesh, conditions_, physics.rho),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
-      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f),
+      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
   if (physics.mu_s > 2 * physics.mu_f || physics.mu_f > 2 * physics.mu_s) momentum_.theta = 1;
-  set_boundary_pressure(p_b_, conditions_, mesh);
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
   cells_norm_ = std::sqrt(squares.total());
@@ -72,12 +77,21 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
 
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
-  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  if (weights_.skewed) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
-  const flow::FluxTerms terms{state_.p, grad_p_, p_b_, L_,           balance_, mu_,
-                              kappa_,   kappa_,  1,    physics_.rho, 0};
-  flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.open_face(), terms, weights_, mesh_);
-  projection_.project(state_.phi, q_, grad_q_, grad_p_, 1e-12 * mesh_.total_volume);
+  set_gradient(u_b_, state_.t);
+  openings_.set_pressure(p_b_, state_.u);
+  const flow::FluxTerms terms{.L_f = L_f_,
+                              .p = state_.p,
+                              .grad_p = grad_p_,
+                              .grad_p_f = projection_.face_gradient(),
+                              .p_b = p_b_,
+                              .balance = balance_,
+                              .mu = mu_,
+                              .theta = momentum_.theta_taken(),
+                              .kappa = kappa_,
+                              .elastic = kappa_,
+                              .rho = physics_.rho};
+  flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.boundary().open, terms, weights_, mesh_);
+  projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
   if (forcing_) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
@@ -90,7 +104,7 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   body_.emplace(mesh_, weights_, shape, physics_.G, kind);
   body_->t = state_.t;
   if (physics_.solid_acceleration != Vec3{})
-    body_force_.emplace(mesh_, physics_.rho * physics_.solid_acceleration);
+    body_force_.emplace(mesh_, weights_, physics_.rho * physics_.solid_acceleration);
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
   require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
@@ -99,7 +113,8 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   if (mu_varies()) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
-      two_viscosities_.emplace(mesh_, physics_.G, solid::Viscosities{physics_.mu_s, physics_.mu_f});
+      two_viscosities_.emplace(mesh_, weights_, physics_.G,
+                               solid::Viscosities{physics_.mu_s, physics_.mu_f});
     if (two_viscosities_) momentum_.hold_past();
   }
   mix_viscosity();
@@ -132,17 +147,32 @@ void Solver::step(Real dt) {
 
 void Solver::update_gradients() {
   const Profile::Call call(profile_, calls_.update_gradients);
-  projection_.set_gradient(grad_p_, grad_q_, state_.p, p_b_);
-  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  if (needs_L()) gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  openings_.set_pressure(p_b_, state_.u);
+  projection_.set_gradient(grad_p_, state_.p, p_b_);
+  set_gradient(u_b_, state_.t);
+  openings_.set_inflow(u_b_, state_.phi);
 }
 
-void Solver::synchronise() {
-  if (!body_ || body_->t == state_.t) return;
-  advance_interface(state_.t);
-  carry_pressure();
-  update_gradients();
-  transport_elastic();
+void Solver::set_gradient(BoundaryField<Vec3>& u_b, Real t) {
+  set_boundary_velocity(u_b, state_.u, conditions_, t, mesh_);
+  if (!needs_L()) return;
+  gradient(L_, state_.u, u_b, u_stencil_, mesh_);
+  vertex_mean_.set(L_f_, L_);
+  openings_.set_velocity(u_b, state_.u, L_f_, weights_);
+}
+
+void Solver::take_sided_gradient() {
+  sided_L_f_.clear();
+  if (!body_ || !body_->sided) return;
+  const CellField<Real>& listed = body_->strained_cells();
+  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
+    const Index f = weights_.irregular[i], P = mesh_.owner[f];
+    const Index N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
+    if (listed[P] == 0 || listed[N] == 0) continue;
+    const Real lambda = f < mesh_.n_internal ? weights_.lambda[f] : 0;
+    L_f_[i] = (1 - lambda) * L_[P] + lambda * L_[N];
+    sided_L_f_.emplace_back(static_cast<Index>(i), L_f_[i]);
+  }
 }
 
 void Solver::advance_interface(Real t) {
@@ -180,7 +210,7 @@ void Solver::set_L(const CellField<Vec3>& u, std::span<const Index> cells) {
 }
 
 void Solver::set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells) {
-  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil(), weights_};
+  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil().cells, weights_};
   u.assign(state_.u);
   for (const Index c : cells)
     if (body_->alpha_mid[c] >= solid::alpha_known)
@@ -196,7 +226,7 @@ void Solver::transport_elastic() {
   const solid::Carrier carrier{state_.phi,
                                u,
                                L_,
-                               projection_.stencil(),
+                               projection_.stencil().cells,
                                weights_,
                                sided ? &body_->sided->strain() : nullptr,
                                &contact,
@@ -205,7 +235,7 @@ void Solver::transport_elastic() {
   std::visit(
       [&](auto& k) {
         k.mark(body_->alpha_strained());
-        if (by_flux) body_->set_touched(k.strained(), momentum_.open_face());
+        if (by_flux) body_->set_touched(k.strained(), momentum_.boundary().open);
         if (by_flux) set_velocity_of_fluxes(grad_q_, k.strained());
         if (by_flux || !needs_L()) set_L(u, k.strained());
         if (sided) {
@@ -221,6 +251,7 @@ void Solver::transport_elastic() {
       },
       body_->kinematics);
   body_->weigh();
+  take_sided_gradient();
 }
 
 void Solver::mix_viscosity() {
@@ -258,6 +289,8 @@ void Solver::stiffen(Real dt) {
 
 void Solver::set_elastic_force() {
   const Profile::Call call(profile_, calls_.set_elastic_force);
+  force_.fill({});
+  balance_.fill(0);
   const solid::Strained strained{body_->B, body_->alpha,
                                  body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
@@ -268,14 +301,13 @@ void Solver::set_elastic_force() {
     mesh_.halo.update(two_viscosities_->normal, body_->band.listed());
     two_viscosities_->traction.apply(
         force_, balance_,
-        {state_.u, L_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
+        {state_.u, L_, L_f_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
          two_viscosities_->normal, two_viscosities_->height, mu_},
         weights_, projection_.stencil(), body_->band);
   }
   solid::clear_negligible(balance_, physics_.G, body_->band);
   if (body_force_)
-    body_force_->apply(force_, balance_, body_->alpha_f, weights_, projection_.stencil(),
-                       body_->band);
+    body_force_->apply(force_, balance_, body_->alpha_f, projection_.stencil(), body_->band);
 }
 
 void Solver::predict_momentum(Real dt) {
@@ -283,29 +315,51 @@ void Solver::predict_momentum(Real dt) {
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
   if (auto& past = momentum_.past())
     set_boundary_velocity(past->u_b, past->u, conditions_, state_.t - momentum_.dt_old, mesh_);
-  const Vec3 body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
-  report_.velocity_iterations =
-      momentum_.predict(state_.u, u_b_, u_b_new_, grad_p_, L_, state_.phi, mu_, implicit(),
-                        mu_varies(), stiff(), {force_, body}, dt);
+  const flow::MomentumTerms terms{
+      .u_b = u_b_,
+      .u_b_new = u_b_new_,
+      .grad_p = grad_p_,
+      .L = L_,
+      .L_f = L_f_,
+      .phi = state_.phi,
+      .mu = mu_,
+      .kappa = implicit(),
+      .mu_varies = mu_varies(),
+      .stiff = stiff(),
+      .force = force_,
+      .body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{}};
+  report_.velocity_iterations = momentum_.predict(state_.u, terms, dt);
 }
 
 void Solver::predict_flux(Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
-  set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  const Real strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0;
-  const flow::FluxTerms terms{state_.p,     grad_p_,  p_b_,
-                              L_,           balance_, mu_,
-                              implicit(),   kappa_,   momentum_.theta_taken(),
-                              physics_.rho, dt,       strained};
-  flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.open_face(), terms, weights_, mesh_);
+  set_gradient(u_b_new_, state_.t + dt);
+  for (const auto& [i, L] : sided_L_f_) L_f_[i] = L;
+  const flow::FluxTerms terms{
+      .L_f = L_f_,
+      .p = state_.p,
+      .grad_p = grad_p_,
+      .grad_p_f = projection_.face_gradient(),
+      .p_b = p_b_,
+      .balance = balance_,
+      .mu = mu_,
+      .theta = momentum_.theta_taken(),
+      .kappa = implicit(),
+      .elastic = kappa_,
+      .rho = physics_.rho,
+      .dt = dt,
+      .strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0};
+  flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.boundary().open, terms, weights_,
+                     mesh_);
 }
 
 void Solver::project(Real dt) {
   const Profile::Call call(profile_, calls_.project);
   flow::divergence(divergence_, state_.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
+  openings_.advance(q_b_, state_.t + dt / 2, dt / physics_.rho);
   const Solve solve =
-      projection_.project(state_.phi, q_, grad_q_, grad_p_, volume_change * cells_norm_ / dt);
+      projection_.project(state_.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
@@ -329,49 +383,6 @@ void Solver::check() {
     for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
-}
-
-Real Solver::advective_dt(Real courant) const {
-  Real rate = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
-  rate = global_max(rate);
-  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
-}
-
-Real Solver::carried_dt() const {
-  Real rate = 0;
-  if (body_)
-    for (const Index c : body_->band.cells())
-      rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
-  rate = global_max(rate);
-  // body.t + solid_dt = t + ahead dt
-  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()
-                  : std::numeric_limits<Real>::max();
-}
-
-Real Solver::boundary_dt(Real courant) const {
-  Real rate = 0;
-  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
-    rate = std::max(rate,
-                    norm(u_b_[f - mesh_.n_internal]) * norm(mesh_.Sf[f]) / mesh_.V[mesh_.owner[f]]);
-  rate = global_max(rate);
-  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
-}
-
-Real Solver::elastic_time() const {
-  return global_min(
-      solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, body_->band.core()));
-}
-
-Real Solver::elastic_dt() const {
-  if (!body_) return std::numeric_limits<Real>::max();
-  return body_->elastic_number() * elastic_time();
-}
-
-Real Solver::strain_dt(Real strain) const {
-  const Real rate = global_max(body_ ? body_->strain.rate : 0);
-  return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

@@ -14,6 +14,7 @@
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/flow/forcing.hpp"
 #include "libfsi/flow/momentum.hpp"
+#include "libfsi/flow/openings.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solid/body_force.hpp"
@@ -38,6 +39,7 @@ struct FlowSetup {
   Vec3 axis{1, 0, 0};                   ///< of the mean velocity
   std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
   int non_orthogonal_correctors = 1;
+  flow::Convection convection = flow::Convection::linear;
 };
 
 /// The unknowns at time t.
@@ -143,6 +145,10 @@ class Solver {
   void project(Real dt);
   void hold_mean_velocity(Real dt);
   void check();
+  /// Velocity at the boundary at time t; L_ and L_f_ of u and it, where they are needed.
+  void set_gradient(BoundaryField<Vec3>& u_b, Real t);
+  /// Between cells whose L_ is that of one side of the solid's surface L_f_ is its mean.
+  void take_sided_gradient();
   /// L_ = grad u on the listed owned cells; its halo.
   void set_L(const CellField<Vec3>& u, std::span<const Index> cells);
   /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
@@ -152,9 +158,9 @@ class Solver {
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
-  /// Whether the momentum equation needs the velocity gradient everywhere.
+  /// Whether the momentum equation needs the velocity gradient in all cells.
   bool needs_L() const {
-    return weights_.skewed || weights_.non_orthogonal || mu_varies() || (body_ && body_->sided);
+    return weights_.uneven || momentum_.reads_L() || mu_varies() || (body_ && body_->sided);
   }
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const {
@@ -173,8 +179,9 @@ class Solver {
 
   /// What the surface between two viscosities needs.
   struct TwoViscosities {
-    TwoViscosities(const Mesh& mesh, Real G, const solid::Viscosities& mu)
-        : traction(mesh, G, mu), normal(mesh), height(mesh), stiff(mesh) {}
+    TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G,
+                   const solid::Viscosities& mu)
+        : traction(mesh, weights, G, mu), normal(mesh), height(mesh), stiff(mesh) {}
     solid::SurfaceTraction traction;
     CellField<Vec3> normal;  ///< of the surface in a cell, out of the solid
     CellField<Real> height;  ///< of the cell's centre above the surface
@@ -188,11 +195,16 @@ class Solver {
   State state_;
   BoundaryField<Vec3> u_b_, u_b_new_;
   BoundaryField<Real> p_b_;
+  BoundaryField<Real> q_b_;
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
   FaceField<Real> mu_, kappa_, balance_;
   GradientStencil u_stencil_;
+  VertexMean<Tensor> vertex_mean_;
+  std::vector<Tensor> L_f_;                          // at irregular faces
+  std::vector<std::pair<Index, Tensor>> sided_L_f_;  // what stands there beside the surface
+  flow::Openings openings_;
   flow::Projection projection_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;

@@ -21,17 +21,17 @@ TEST(Level, IsMadeAnewEachTime) {
   };
   const Mesh mesh = test::read_box(box);
   const FaceWeights weights(mesh);
-  const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  PressureStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   Band band(mesh);
   band.rebuild(CellField<Real>(mesh, 1), 0.5);
-  solid::Level level(mesh);
+  solid::Level level(mesh, weights);
   const auto force_of = [&] {
     CellField<Vec3> force(mesh);
     FaceField<Real> balance(mesh);
     level.clear();
     for (Index f = 0; f < mesh.n_internal; ++f)
-      if (std::abs(mesh.Cf[f].x - 0.5) < 0.1) level.add(f, mesh.Cf[f].y, weights, stencil);
-    level.apply(force, balance, weights, stencil, band);
+      if (std::abs(mesh.Cf[f].x - 0.5) < 0.1) level.add(f, mesh.Cf[f].y, stencil.cells);
+    level.apply(force, balance, stencil, band);
     return force;
   };
   const CellField<Vec3> first = force_of(), again = force_of();

@@ -136,7 +136,7 @@ TEST(NeoHookean, AFilmAtAWall) {
   const SymTensor B{1, 0.4, 0, 1, 0, 1};
   const Mesh mesh = test::read_box({.n = {8, 8, 0}, .periodic = {"left", "right"}});
   const FaceWeights weights(mesh);
-  const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  PressureStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   CellField<Real> alpha(mesh, 1);
   vof::Interface interface(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c)
@@ -153,7 +153,7 @@ TEST(NeoHookean, AFilmAtAWall) {
   CellField<solid::SymGradient> grad(mesh);
   Band band(mesh);
   band.rebuild(alpha, 0.1);
-  solid::NeoHookean law(mesh, G);
+  solid::NeoHookean law(mesh, weights, G);
   law.apply(force, balance, {B_c, alpha, &alpha_f, &normal}, weights, stencil, band, grad);
   for (const Index c : owned(mesh)) {
     const Real y = mesh.C[c].y;

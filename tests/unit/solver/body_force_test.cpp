@@ -67,13 +67,13 @@ TEST(BodyForce, LeavesAHeavyLayerAtRest) {
 Real excess(Index n) {
   const Mesh mesh = test::read_box({.n = {n, n, 0}});
   const FaceWeights weights(mesh);
-  const GradientStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  PressureStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   const shapes::Shape disc = shapes::translate(shapes::sphere(0.21), {0.53, 0.47, 0});
   const Body body(mesh, weights, disc, 1, KinematicsKind::log_conformation);
-  solid::BodyForce weight(mesh, {0, -g, 0});
+  solid::BodyForce weight(mesh, weights, {0, -g, 0});
   CellField<Vec3> force(mesh);
   FaceField<Real> balance(mesh);
-  weight.apply(force, balance, body.alpha_f, weights, stencil, body.band);
+  weight.apply(force, balance, body.alpha_f, stencil, body.band);
   Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c) sum.add(mesh.V[c] * force[c].y);
   return sum.total() / (-g * body.filled.volume) - 1;

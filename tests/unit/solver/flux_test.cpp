@@ -19,16 +19,27 @@ TEST(Flux, StrainsNoMoreOffThanThereIs) {
   const Real G = 10, s = 1, d = 0.125;
   CellField<Vec3> u(mesh), grad_p(mesh);
   CellField<Real> p(mesh);
-  CellField<Tensor> L(mesh);
   BoundaryField<Vec3> u_b(mesh);
   BoundaryField<Real> p_b(mesh);
-  FaceField<Real> phi(mesh), balance(mesh, 2 * s), mu(mesh), kappa(mesh);
+  FaceField<Real> phi(mesh), balance(mesh, 2 * s), mu(mesh), kappa(mesh), theta(mesh, 0.5);
   const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
   for (const Real dt : {1e-4, 1e-2, 1.0}) {
     kappa.fill(0.3 * dt * G);
     const auto taken_off = [&](Real strained) {
       flow::predict_flux(phi, u, u_b, open,
-                         {p, grad_p, p_b, L, balance, mu, kappa, kappa, 0.5, 1, dt, strained},
+                         {.L_f = {},
+                          .p = p,
+                          .grad_p = grad_p,
+                          .grad_p_f = {},
+                          .p_b = p_b,
+                          .balance = balance,
+                          .mu = mu,
+                          .theta = theta,
+                          .kappa = kappa,
+                          .elastic = kappa,
+                          .rho = 1,
+                          .dt = dt,
+                          .strained = strained},
                          weights, mesh);
       const Real in = phi[0] / norm(mesh.Sf[0]);  // as much enters on the other side
       return G * 2 * (2 * in / d) * dt / s;
@@ -48,10 +59,10 @@ TEST(ViscousPressure, TakesALesserShareInPoorCells) {
         test::read_box({.n = {8, 8, 0}, .length = {flat ? 8.0 : 1.0, 1, 1}, .simplex = flat});
     const FaceWeights weights(mesh);
     CellField<Real> p(mesh), div(mesh, 3);
-    FaceField<Real> mu(mesh, 2), kappa(mesh, 1);
+    FaceField<Real> mu(mesh, 2), kappa(mesh, 1), theta(mesh, 0.5);
     const Index inner = mesh.n_cells / 2;
     mu[mesh.cell_faces[inner][0]] = 0.5;
-    flow::add_viscous_pressure(p, div, mu, kappa, 0.5, weights, mesh);
+    flow::add_viscous_pressure(p, div, mu, kappa, theta, weights, mesh);
     const Real whole = -0.5 * (0.5 * 0.5 + 1) * 3;
     if (flat) {
       EXPECT_GT(p[inner], 0.8 * whole);

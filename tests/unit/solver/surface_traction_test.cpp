@@ -33,27 +33,35 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   BoundaryField<Vec3> u_b(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) u[c] = velocity(mesh.C[c]);
   for (Index b = 0; b < mesh.n_boundary(); ++b) u_b[b] = velocity(mesh.Cf[mesh.n_internal + b]);
-  const GradientStencil of_u(mesh, weights, std::vector<bool>(mesh.patches.size(), true)),
-      of_p(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  const GradientStencil of_u(mesh, weights, std::vector<bool>(mesh.patches.size(), true));
+  PressureStencil of_p(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   CellField<Tensor> L(mesh);
   gradient(L, u, u_b, of_u, mesh);
   FaceField<Real> mu_f(mesh), balance(mesh);
   flow::mixture_viscosity(mu_f, body.alpha, mu.fluid, mu.solid, weights, mesh);
-  const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
-  flow::viscous_compact(visc, mu_f, u, u_b, open, weights, mesh);
-  flow::viscous_rest(visc, mu_f, mu.fluid, L, open, weights, mesh);
+  const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  const flow::ViscousBoundary walls{none, none};
+  VertexMean<Tensor> mean(mesh, of_u);
+  std::vector<Tensor> L_f(weights.irregular.size());
+  mean.set(L_f, L);
+  flow::viscous_compact(visc, mu_f, u, u_b, walls, weights, mesh);
+  flow::viscous_oblique(visc, mu_f, L_f, walls, weights, mesh);
+  flow::viscous_transposed(visc, mu_f, mu.fluid, L, walls, mesh);
   CellField<Vec3> normal(mesh);
   CellField<Real> height(mesh);
   vof::cell_plane(normal, height, body.alpha, body.interface, mesh, body.band.cells());
-  solid::SurfaceTraction traction(mesh, 0, mu);
+  solid::SurfaceTraction traction(mesh, weights, 0, mu);
   traction.apply(force, balance,
-                 {u, L, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f},
+                 {u, L, L_f, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f},
                  weights, of_p, body.band);
   CellField<Real> s(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) s[c] = -2 * k * (mu.solid - mu.fluid) * body.alpha[c];
   CellField<Vec3> grad_s(mesh);
-  CellField<Vec3> first(mesh);
-  pressure_gradient(grad_s, first, s, BoundaryField<Real>(mesh), of_p, mesh);
+  const BoundaryField<Real> zero(mesh);
+  std::vector<Vec3> grad_f(weights.irregular.size());
+  gradient(grad_s, s, zero, of_p.cells, mesh);
+  of_p.at_faces.set(grad_f, grad_s);
+  pressure_gradient(grad_s, grad_f, s, zero, of_p.cells, mesh);
   Real worst = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Vec3 x = mesh.C[c];

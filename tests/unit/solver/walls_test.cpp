@@ -68,7 +68,18 @@ TEST(Walls, CarryAStiffSolidWithThem) {
   const CellField<Tensor> L(mesh);
   const FaceField<Real> phi(mesh), mu(mesh, 0.01), kappa(mesh, 1e3);
   const BoundaryField<Vec3> before(mesh), after(mesh, {0.1, 0, 0});
-  momentum.predict(u, before, after, none, L, phi, mu, kappa, false, true, {none, {}}, 0.1);
+  momentum.predict(u,
+                   {.u_b = before,
+                    .u_b_new = after,
+                    .grad_p = none,
+                    .L = L,
+                    .L_f = {},
+                    .phi = phi,
+                    .mu = mu,
+                    .kappa = kappa,
+                    .stiff = true,
+                    .force = none},
+                   0.1);
   for (Index c = 0; c < mesh.n_owned; ++c) EXPECT_NEAR(u[c].x, 0.1, 1e-3);
 }
 

@@ -60,6 +60,10 @@ struct Builder {
           mesh.C.push_back(at(i + 0.5, j + 0.5, k + 0.5));
           mesh.V.push_back(h.x * h.y * h.z);
           mesh.global_id.push_back(cell({i, j, k}));
+          for (Index dk = 0; dk <= (dim == 3 ? 1 : 0); ++dk)
+            for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+              mesh.cell_points.index.push_back(point({i + di, j + dj, k + dk}));
+          mesh.cell_points.offset.push_back(static_cast<Index>(mesh.cell_points.index.size()));
         }
     for (Index k = 0; k <= (dim == 3 ? n[2] : 0); ++k)
       for (Index j = 0; j <= n[1]; ++j)

@@ -1,0 +1,93 @@
+#include "libfsi/flow/convection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libfsi/core/error.hpp"
+
+namespace fsi::flow {
+namespace {
+
+/// conv_c += phi_b (u_b - u_c) at the boundary.
+void add_boundary(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                  const BoundaryField<Vec3>& u_b, const Mesh& mesh) {
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f];
+    conv[P] += phi[f] * (u_b[f - mesh.n_internal] - u[P]);
+  }
+}
+
+/// psi (a) of r = 2 slope / rise - 1, by what a limited step takes of `step`.
+Real limited_part(Real slope, Real rise, Real step) {
+  const Real r = rise != 0 ? 2 * slope / rise - 1 : 1;
+  return std::clamp(2 * r, Real{0}, Real{1}) * step;
+}
+
+}  // namespace
+
+Convection convection_of(const std::string& name) {
+  const std::vector<std::string> names = convection_names();
+  const auto at = std::ranges::find(names, name);
+  require(at != names.end(), "convection scheme \"" + name + "\" unknown");
+  return static_cast<Convection>(at - names.begin());
+}
+
+std::vector<std::string> convection_names() {
+  return {"linear", "symmetric", "linear_upwind", "limited"};
+}
+
+void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                const BoundaryField<Vec3>& u_b, const std::vector<Tensor>& L_f,
+                const FaceWeights& weights, const Mesh& mesh, bool symmetric) {
+  constexpr Real damping = 0.25;  // of the offset of a face in parts of |d|
+  conv.fill({});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Vec3 half = (0.5 * phi[f]) * (u[N] - u[P]);
+    conv[P] += half;
+    conv[N] += half;
+  }
+  add_boundary(conv, phi, u, u_b, mesh);
+  if (symmetric) return;
+  for (std::size_t i = 0; i < weights.irregular.size(); ++i) {
+    const Index f = weights.irregular[i];
+    if (f >= mesh.n_internal) break;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const Vec3 d = mesh.d[f], m = weights.from_midpoint(f, mesh);
+    const Real beta = std::min(Real{1}, damping * norm(m) / norm(d));
+    const Vec3 rest =
+        phi[f] * dot(L_f[i], m) - (0.5 * beta * std::abs(phi[f])) * (u[N] - u[P] - dot(L_f[i], d));
+    conv[P] += rest;
+    conv[N] -= rest;
+  }
+}
+
+void convection_upwind(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                       const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
+                       const std::vector<Tensor>& L_f, const FaceWeights& weights, const Mesh& mesh,
+                       bool limited) {
+  conv.fill({});
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f], i = weights.place[f];
+    const bool forward = phi[f] >= 0;
+    const Index U = forward ? P : N;
+    const Tensor& L_U = i >= 0 && mesh.simplex(U) ? L_f[i] : L[U];
+    const Vec3 d = mesh.d[f], r = mesh.Cf[f] - mesh.C[P];
+    Vec3 step = dot(L_U, forward ? r : r - d);  // u_f - u_U
+    if (limited) {
+      const Vec3 rise = (forward ? 1 : -1) * (u[N] - u[P]);
+      const Vec3 slope = dot(L_U, forward ? d : -d);
+      Vec3 whole = 0.5 * rise;
+      if (i >= 0) whole += dot(L_f[i], weights.from_midpoint(f, mesh));
+      step = {limited_part(slope.x, rise.x, whole.x), limited_part(slope.y, rise.y, whole.y),
+              limited_part(slope.z, rise.z, whole.z)};
+    }
+    const Vec3 u_f = u[U] + step;
+    conv[P] += phi[f] * (u_f - u[P]);
+    conv[N] -= phi[f] * (u_f - u[N]);
+  }
+  add_boundary(conv, phi, u, u_b, mesh);
+}
+
+}  // namespace fsi::flow

@@ -1,0 +1,128 @@
+#include "libfsi/flow/openings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi::flow {
+
+Openings::Openings(const Mesh& mesh, const std::vector<Condition>& conditions, Real rho)
+    : mesh_(mesh), rho_(rho) {
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (const auto* opening = std::get_if<Opening>(&conditions[i])) {
+      openings_.push_back({mesh.patches[i], opening->pressure, opening->pressure(0)});
+      set_basis(openings_.back());
+    }
+}
+
+/// Collective. Subtracts from e its part along the basis, twice against rounding, and scales it to
+/// norm 1; false where nothing is left.
+bool Openings::orthonormalise(const One& opening, std::vector<Real>& e) const {
+  const auto product = [&](const std::vector<Real>& a, const std::vector<Real>& b) {
+    Sum sum;
+    for (Index j = 0; j < opening.faces(); ++j)
+      sum.add(norm(mesh_.Sf[opening.patch.begin + j]) * a[j] * b[j]);
+    return sum.total();
+  };
+  const Real before = product(e, e);
+  for (int pass = 0; pass < 2; ++pass)
+    for (const std::vector<Real>& o : opening.basis) {
+      const Real part = product(o, e);
+      for (std::size_t j = 0; j < e.size(); ++j) e[j] -= part * o[j];
+    }
+  constexpr Real dependent = 1e-8;
+  const Real left = product(e, e);
+  if (!(left > dependent * before)) return false;
+  for (Real& value : e) value /= std::sqrt(left);
+  return true;
+}
+
+void Openings::set_basis(One& opening) const {
+  std::array<Sum, 7> sums;
+  for (Index j = 0; j < opening.faces(); ++j) {
+    const Vec3 &S = mesh_.Sf[opening.patch.begin + j], &x = mesh_.Cf[opening.patch.begin + j];
+    for (int i = 0; i < 3; ++i) sums[i].add(S[i]), sums[3 + i].add(norm(S) * x[i]);
+    sums[6].add(norm(S));
+  }
+  std::array<Real, 7> total{};
+  Sum::totals(total, sums);
+  const GlobalIndex n = global_sum(opening.faces());
+  if (n == 0) return;
+  const Vec3 area{total[0], total[1], total[2]},
+      centre = Vec3{total[3], total[4], total[5]} / total[6];
+  opening.normal = area / norm(area);
+  const Vec3 other = mesh_.dim == 2                     ? Vec3{0, 0, 1}
+                     : std::abs(opening.normal.x) < 0.7 ? Vec3{1, 0, 0}
+                                                        : Vec3{0, 1, 0};
+  const Vec3 across = cross(opening.normal, other), v = across / norm(across);
+  const Vec3 w = cross(opening.normal, v);
+  const Real size = mesh_.dim == 2 ? total[6] / 2 : std::sqrt(total[6]) / 2;
+  constexpr int highest = 4;
+  for (int degree = 0; degree <= highest; ++degree)
+    for (int k = 0; k <= degree; ++k) {
+      if (4 * (static_cast<GlobalIndex>(opening.basis.size()) + 1) > n && degree > 0) return;
+      std::vector<Real> e(static_cast<std::size_t>(opening.faces()));
+      for (Index j = 0; j < opening.faces(); ++j) {
+        const Vec3 r = (mesh_.Cf[opening.patch.begin + j] - centre) / size;
+        e[j] = std::pow(dot(r, v), k) * std::pow(dot(r, w), degree - k);
+      }
+      if (orthonormalise(opening, e)) opening.basis.push_back(std::move(e));
+    }
+}
+
+void Openings::set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) const {
+  for (const One& opening : openings_) {
+    const auto inward = [&](Index f) { return -dot(u[mesh_.owner[f]], opening.normal); };
+    std::vector<Sum> sums(opening.basis.size() + 2);
+    for (Index j = 0; j < opening.faces(); ++j) {
+      const Real flow = norm(mesh_.Sf[opening.patch.begin + j]) * inward(opening.patch.begin + j);
+      for (std::size_t k = 0; k < opening.basis.size(); ++k)
+        sums[k].add(flow * opening.basis[k][j]);
+      sums.end()[-2].add(flow), sums.back().add(std::max(flow, Real{0}));
+    }
+    std::vector<Real> total(sums.size());
+    Sum::totals(total, sums);
+    const Real net = total.end()[-2], in = total.back();
+    const Real s = in > 0 ? std::max(net, Real{0}) / in : 0;
+    const Real p = opening.pressure;
+    for (Index j = 0; j < opening.faces(); ++j) {
+      Real U = 0;
+      for (std::size_t k = 0; k < opening.basis.size(); ++k) U += total[k] * opening.basis[k][j];
+      const Index f = opening.patch.begin + j;
+      const Real u_n = inward(f);
+      p_b[f - mesh_.n_internal] = u_n > 0 ? p + rho_ / 2 * (s * U * U - u_n * u_n) : p;
+    }
+  }
+}
+
+void Openings::advance(BoundaryField<Real>& q_b, Real t, Real factor) {
+  for (One& opening : openings_) {
+    const Real before = std::exchange(opening.pressure, opening.given(t));
+    const Real rise = factor * (opening.pressure - before);
+    for (Index j = 0; j < opening.faces(); ++j)
+      q_b[opening.patch.begin + j - mesh_.n_internal] = rise;
+  }
+}
+
+void Openings::set_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
+                            const std::vector<Tensor>& L_f, const FaceWeights& weights) const {
+  for (const One& opening : openings_)
+    for (Index f = opening.patch.begin; f < opening.patch.end; ++f) {
+      const Index i = weights.place[f];
+      const Vec3 d = mesh_.d[f], S = mesh_.Sf[f];
+      Vec3& value = u_b[f - mesh_.n_internal];
+      value = u[mesh_.owner[f]];
+      if (i >= 0) value += dot(L_f[i], d - (dot(d, S) / norm2(S)) * S);
+    }
+}
+
+void Openings::set_inflow(BoundaryField<Vec3>& u_b, const FaceField<Real>& phi) const {
+  for (const One& opening : openings_)
+    for (Index f = opening.patch.begin; f < opening.patch.end; ++f)
+      if (phi[f] < 0) u_b[f - mesh_.n_internal] = (phi[f] / norm2(mesh_.Sf[f])) * mesh_.Sf[f];
+}
+
+}  // namespace fsi::flow

@@ -1,0 +1,62 @@
+#pragma once
+// What stands at the openings of the boundary: pressure and velocity there.
+
+#include <vector>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+
+namespace fsi::flow {
+
+/// The openings of a mesh.
+///
+/// A given static pressure leaves the flow into the domain without a bound on the energy it brings
+/// along: what flows in faster brings more, and on tetrahedra single faces run away at Reynolds
+/// numbers of some hundred. So the total pressure is given for what departs from a smooth profile,
+///
+///   p_b = p + rho / 2 (s U^2 - u_n^2)     where u_n = u_P . n < 0,
+///
+/// U the best fit of u_n over the opening by polynomials of up to fourth degree in its plane (as
+/// many as a quarter of its faces bears), s the part of the inflow that is not flow back,
+/// max(0, sum of inflow and outflow) / inflow: an inlet whose profile is smooth keeps its static
+/// pressure, flow back into an outlet costs its own dynamic pressure, the directional do-nothing
+/// condition [Braack14].
+class Openings {
+ public:
+  /// Collective.
+  Openings(const Mesh& mesh, const std::vector<Condition>& conditions, Real rho);
+
+  /// Collective. Pressure on the faces of openings. u: owned.
+  void set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) const;
+  /// `pressure` goes on to time t; q_b = factor times its change.
+  void advance(BoundaryField<Real>& q_b, Real t, Real factor);
+  /// Velocity on the faces of openings: no gradient along the normal,
+  ///   u_b = u_P + L_f . t,  t the part of d along the face.
+  /// L_f: at irregular faces.
+  void set_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
+                    const std::vector<Tensor>& L_f, const FaceWeights& weights) const;
+  /// What flows in does so along the normal: u_b = phi S / |S|^2 where phi < 0.
+  void set_inflow(BoundaryField<Vec3>& u_b, const FaceField<Real>& phi) const;
+
+  /// An opening.
+  struct One {
+    Patch patch;
+    OfTime given;
+    Real pressure = 0;  ///< in the middle of the last step, part of a checkpoint
+    Vec3 normal{};
+    std::vector<std::vector<Real>> basis{};  ///< [functions][faces], orthonormal by area
+    Index faces() const { return patch.end - patch.begin; }
+  };
+  std::vector<One>& all() { return openings_; }
+
+ private:
+  void set_basis(One& opening) const;
+  bool orthonormalise(const One& opening, std::vector<Real>& e) const;
+
+  const Mesh& mesh_;
+  Real rho_;
+  std::vector<One> openings_;
+};
+
+}  // namespace fsi::flow

@@ -1,0 +1,54 @@
+// How long a step may be: what Solver says of the fluxes, the walls and the solid.
+
+#include <algorithm>
+#include <limits>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+
+Real Solver::advective_dt(Real courant) const {
+  Real rate = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
+  rate = global_max(rate);
+  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::carried_dt() const {
+  Real rate = 0;
+  if (body_)
+    for (const Index c : body_->band.cells())
+      rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
+  rate = global_max(rate);
+  // body.t + solid_dt = t + ahead dt
+  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()
+                  : std::numeric_limits<Real>::max();
+}
+
+Real Solver::boundary_dt(Real courant) const {
+  Real rate = 0;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    rate = std::max(rate,
+                    norm(u_b_[f - mesh_.n_internal]) * norm(mesh_.Sf[f]) / mesh_.V[mesh_.owner[f]]);
+  rate = global_max(rate);
+  return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::elastic_time() const {
+  return global_min(
+      solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, body_->band.core()));
+}
+
+Real Solver::elastic_dt() const {
+  if (!body_) return std::numeric_limits<Real>::max();
+  return body_->elastic_number() * elastic_time();
+}
+
+Real Solver::strain_dt(Real strain) const {
+  const Real rate = global_max(body_ ? body_->strain.rate : 0);
+  return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
+}
+
+}  // namespace fsi

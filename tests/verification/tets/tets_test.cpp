@@ -1,0 +1,130 @@
+// Flow on tetrahedra as gmsh makes them: order, energy, and that nothing grows.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/convection.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real pi = std::numbers::pi, mu = 0.01;
+const std::vector<std::string> all_sides{"left", "right", "bottom", "top", "back", "front"};
+
+std::string file(const std::string& name) { return std::string(FSI_MESHES) + "/" + name + ".msh"; }
+
+// The flow of Arnold, Beltrami and Childress, whose convection is a gradient:
+//   u = exp(-nu k^2 t) (sin kz + cos ky, sin kx + cos kz, sin ky + cos kx),  p = -rho u^2 / 2
+Vec3 abc(const Vec3& x, Real t) {
+  constexpr Real k = 2 * pi;
+  return std::exp(-mu * k * k * t) * Vec3{std::sin(k * x.z) + std::cos(k * x.y),
+                                          std::sin(k * x.x) + std::cos(k * x.z),
+                                          std::sin(k * x.y) + std::cos(k * x.x)};
+}
+
+struct Errors {
+  Real u = 0, p = 0;  ///< root mean squares, u as a part of the exact one
+};
+
+Errors errors(const Solver& solver, Real dt) {
+  const Mesh& mesh = solver.mesh();
+  const State& state = solver.state();
+  const auto p = [&](Index c) { return -norm2(abc(mesh.C[c], state.t - dt / 2)) / 2; };
+  std::array<Sum, 4> sums;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Vec3 exact = abc(mesh.C[c], state.t);
+    sums[0].add(mesh.V[c] * norm2(state.u[c] - exact)), sums[1].add(mesh.V[c] * norm2(exact));
+    sums[2].add(mesh.V[c] * (state.p[c] - p(c))), sums[3].add(mesh.V[c]);
+  }
+  const Real mean = sums[2].total() / sums[3].total();
+  Sum square;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    square.add(mesh.V[c] * std::pow(state.p[c] - p(c) - mean, 2));
+  return {std::sqrt(sums[0].total() / sums[1].total()),
+          std::sqrt(square.total() / sums[3].total())};
+}
+
+Errors run_abc(const std::string& name) {
+  const Mesh mesh = read_mesh({.file = file(name), .periodic = {}});
+  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu}, {});
+  solver.start([](const Vec3& x) { return abc(x, 0); });
+  Real dt = 0;
+  for (constexpr Real end = 0.25; solver.state().t < end - 1e-12;)
+    solver.step(dt = std::min(solver.advective_dt(0.5), end - solver.state().t));
+  return errors(solver, dt);
+}
+
+void expect_orders(const std::string& coarse_name, const std::string& fine_name, Real finer) {
+  const Errors coarse = run_abc(coarse_name), fine = run_abc(fine_name);
+  const Real order = std::log(coarse.u / fine.u) / std::log(finer),
+             p_order = std::log(coarse.p / fine.p) / std::log(finer);
+  std::printf("ABC flow, %s and %s: u %.2e %.2e order %.2f, p %.2e %.2e order %.2f\n",
+              coarse_name.c_str(), fine_name.c_str(), coarse.u, fine.u, order, coarse.p, fine.p,
+              p_order);
+  EXPECT_GE(order, 1.8);
+  EXPECT_GE(p_order, 1);
+}
+
+TEST(Tets, AbcFlowIsOfSecondOrder) { expect_orders("tets8", "tets16", 2); }
+TEST(Tets, FineAbcFlowIsOfSecondOrder) { expect_orders("tets16", "tets24", 1.5); }
+
+Real energy(const Solver& solver) {
+  Sum sum;
+  for (Index c = 0; c < solver.mesh().n_owned; ++c)
+    sum.add(solver.mesh().V[c] * norm2(solver.state().u[c]) / 2);
+  return sum.total();
+}
+
+// Without viscosity the flow decays by its own damping alone; energy must not grow in any step.
+TEST(Tets, EnergyNeverGrowsWithoutViscosity) {
+  for (const std::string name : {"tets8", "slivers8"})
+    for (const std::string& scheme : flow::convection_names()) {
+      const Mesh mesh = read_mesh({.file = file(name), .periodic = {}});
+      Solver solver(mesh, {.rho = 1, .mu_f = 1e-300, .mu_s = 1e-300},
+                    {.convection = flow::convection_of(scheme)});
+      solver.start([](const Vec3& x) {
+        constexpr Real k = 2 * pi;
+        return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * std::cos(k * x.z),
+                    -std::cos(k * x.x) * std::sin(k * x.y) * std::cos(k * x.z), 0};
+      });
+      const Real first = energy(solver);
+      Real last = first, growth = 0;
+      while (solver.state().t < 2) {
+        solver.step(solver.advective_dt(0.3));
+        const Real now = energy(solver);
+        growth = std::max(growth, now / last - 1), last = now;
+      }
+      std::printf("Taylor-Green without viscosity, %s, %s: energy %.4f of its start at t = 2\n",
+                  name.c_str(), scheme.c_str(), last / first);
+      EXPECT_LE(growth, 1e-4) << name << " " << scheme;
+      EXPECT_LE(last, first);
+    }
+}
+
+// A lid slides over a box of ten thousand flat and skewed cells, at Re = 1000.
+TEST(Tets, ALidOverSliversRejectsNoStep) {
+  const Mesh mesh = read_mesh({.file = file("slivers8_box"), .periodic = {}});
+  Conditions conditions;
+  for (const std::string& side : all_sides) conditions[side] = Wall{};
+  conditions["top"] = Wall{{1, 0, 0}};
+  Solver solver(mesh, {.rho = 1, .mu_f = 1e-3, .mu_s = 1e-3}, {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  while (solver.state().t < 10)
+    solver.step(std::min(solver.advective_dt(0.5), solver.boundary_dt(0.5)));
+  Real fastest = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) fastest = std::max(fastest, norm(solver.state().u[c]));
+  std::printf("lid over slivers at Re 1000: energy %.4f, largest speed %.3f at t = 10\n",
+              energy(solver), global_max(fastest));
+  EXPECT_LE(global_max(fastest), 1);
+}
+
+}  // namespace
+}  // namespace fsi
