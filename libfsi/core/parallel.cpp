@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <memory_resource>
+#include <numeric>
 #include <vector>
 
 namespace fsi {
@@ -67,6 +68,17 @@ void Sum::totals(std::span<Real> items, std::span<const Sum> parts) {
       sum.add(all[r + 2 * i]), sum.low_ += all[r + 2 * i + 1];
     items[i] = sum.high_ + sum.low_;
   }
+}
+
+std::vector<Real> gathered(std::span<const Real> items) {
+  const int mine = static_cast<int>(items.size());
+  std::vector<int> count(static_cast<std::size_t>(ranks())), begin(count.size());
+  MPI_Allgather(&mine, 1, MPI_INT, count.data(), 1, MPI_INT, comm());
+  std::exclusive_scan(count.begin(), count.end(), begin.begin(), 0);
+  std::vector<Real> all(static_cast<std::size_t>(begin.back() + count.back()));
+  MPI_Allgatherv(items.data(), mine, MPI_DOUBLE, all.data(), count.data(), begin.data(), MPI_DOUBLE,
+                 comm());
+  return all;
 }
 
 std::string broadcast(std::string text, int root) {

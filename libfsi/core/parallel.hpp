@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "libfsi/core/types.hpp"
 
@@ -42,6 +43,9 @@ class Sum {
  private:
   Real high_ = 0, low_ = 0;
 };
+
+/// The items of all ranks, in the order of the ranks.
+std::vector<Real> gathered(std::span<const Real> items);
 
 /// Rank `root`'s text on every rank.
 std::string broadcast(std::string text, int root = 0);

@@ -38,6 +38,36 @@ void require_sliding(const Wall& wall, const Patch& patch, const Mesh& mesh) {
               "own plane or along a cylinder's axis; give the velocity of its faces instead");
 }
 
+void require_passive(const Load& load, const std::string& patch) {
+  require(load.proximal >= 0 && load.distal >= 0 && load.capacitance >= 0,
+          "patch \"" + patch + "\": resistances and capacitance of a load must be >= 0");
+  require(load.capacitance == 0 || load.distal > 0,
+          "patch \"" + patch + "\": a capacitance needs a distal resistance > 0 beside it");
+}
+
+/// Flow rates that leave no way out must cancel.
+void require_balance(const std::vector<Condition>& conditions) {
+  Real net = 0, size = 0;
+  for (const Condition& condition : conditions) {
+    if (fixes_pressure(condition) || std::holds_alternative<FixedVelocity>(condition)) return;
+    if (const auto* flow = std::get_if<FlowRate>(&condition))
+      net += flow->rate(0), size += std::abs(flow->rate(0));
+  }
+  constexpr Real tolerance = 1e-6;
+  require(std::abs(net) <= tolerance * size,
+          "the flow rates of all patches must add up to zero where no patch gives the pressure: "
+          "make one of them an opening");
+}
+
+void set_shapes(std::vector<Condition>& conditions, const Mesh& mesh) {
+  std::vector<Patch> free;
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (std::holds_alternative<Slip>(conditions[i])) free.push_back(mesh.patches[i]);
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (auto* flow = std::get_if<FlowRate>(&conditions[i]))
+      flow->shape = inflow_shape(flow->profile, mesh.patches[i], mesh, free);
+}
+
 }  // namespace
 
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
@@ -49,12 +79,16 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
                 "which knows: " + names(conditions) + "; rename it or join it by -mesh_periodic");
     result.push_back(found->second);
     if (const auto* wall = std::get_if<Wall>(&found->second)) require_sliding(*wall, patch, mesh);
+    if (const auto* opening = std::get_if<Opening>(&found->second))
+      require_passive(opening->load, patch.name);
   }
   for (const auto& [name, condition] : conditions) {
     bool there = false;
     for (const Patch& patch : mesh.patches) there = there || patch.name == name;
     require(there, "patch \"" + name + "\" is not in the mesh, which has: " + names(mesh));
   }
+  require_balance(result);
+  set_shapes(result, mesh);
   return result;
 }
 
@@ -81,14 +115,22 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                    [&](const FixedVelocity& fixed) {
                      set([&](Index f, const Vec3&) { return fixed.u(mesh.Cf[f], t); });
                    },
+                   [&](const FlowRate& flow) {
+                     const Real rate = flow.rate(t);
+                     set([&](Index f, const Vec3&) { return rate * flow.shape[f - begin]; });
+                   },
                    [&](const Opening&) { set([&](Index, const Vec3& u_P) { return u_P; }); }},
         conditions[i]);
   }
 }
 
 bool fixes_velocity(const Condition& condition) {
-  return std::holds_alternative<Wall>(condition) ||
-         std::holds_alternative<FixedVelocity>(condition);
+  return std::holds_alternative<Wall>(condition) || prescribes_flow(condition);
+}
+
+bool prescribes_flow(const Condition& condition) {
+  return std::holds_alternative<FixedVelocity>(condition) ||
+         std::holds_alternative<FlowRate>(condition);
 }
 
 bool fixes_pressure(const Condition& condition) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/field/inflow.hpp"
 
 namespace fsi {
 
@@ -36,18 +37,37 @@ class OfTime {
  private:
   std::function<Real(Real)> at_;
 };
-/// Inlet or outlet at given pressure; velocity with zero gradient along the normal.
+/// A flow rate into the domain (negative: out of it), spread over the patch.
+struct FlowRate {
+  OfTime rate;
+  InflowProfile profile = InflowProfile::parabola;
+  std::vector<Vec3> shape{};  ///< [faces] velocity at rate 1; set by `resolve`
+};
+/// What lies beyond an opening: a resistance, and behind it another one beside a capacitance.
+struct Load {
+  Real proximal = 0;     ///< R_p, pressure per flow rate
+  Real distal = 0;       ///< R_d
+  Real capacitance = 0;  ///< C, volume per pressure; 0: none
+  Real stored = 0;       ///< pressure p_c of the capacitance at t = 0
+  bool any() const { return proximal != 0 || distal != 0; }
+};
+/// Inlet or outlet at given pressure; velocity with zero gradient along the normal. With a load the
+/// pressure is that beyond it, p = pressure + R_p Q + p_c, Q the flow rate out of the domain and
+///   C dp_c/dt = Q - p_c / R_d,
+/// the windkessel of three elements.
 struct Opening {
   OfTime pressure;
+  Load load{};
 };
 
-using Condition = std::variant<Wall, Slip, FixedVelocity, Opening>;
+using Condition = std::variant<Wall, Slip, FixedVelocity, FlowRate, Opening>;
 /// Patch name -> condition.
 using Conditions = std::map<std::string, Condition>;
 
 /// The conditions of a mesh's patches, in their order.
-/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, or a
-/// wall moves through itself.
+/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, a wall
+/// moves through itself, a load is negative or has a capacitance without a resistance beside it,
+/// flow rates on all patches do not add up to zero at t = 0.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.
@@ -56,6 +76,8 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
 
 /// Whether the condition gives the velocity (for its gradient and the implicit viscous term).
 bool fixes_velocity(const Condition& condition);
+/// Whether it prescribes a flow through the patch: FixedVelocity or FlowRate.
+bool prescribes_flow(const Condition& condition);
 bool fixes_pressure(const Condition& condition);
 
 }  // namespace fsi

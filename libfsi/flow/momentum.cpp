@@ -17,7 +17,7 @@ ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
       boundary.open[b] = fixes_pressure(conditions[i]) ? 1 : 0;
-      boundary.varied[b] = std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
+      boundary.varied[b] = prescribes_flow(conditions[i]) ? 1 : 0;
     }
   return boundary;
 }

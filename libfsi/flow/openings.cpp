@@ -13,8 +13,11 @@ Openings::Openings(const Mesh& mesh, const std::vector<Condition>& conditions, R
     : mesh_(mesh), rho_(rho) {
   for (std::size_t i = 0; i < conditions.size(); ++i)
     if (const auto* opening = std::get_if<Opening>(&conditions[i])) {
-      openings_.push_back({mesh.patches[i], opening->pressure, opening->pressure(0)});
-      set_basis(openings_.back());
+      openings_.push_back({mesh.patches[i], opening->pressure, opening->load,
+                           opening->pressure(0) + opening->load.stored, opening->load.stored});
+      One& one = openings_.back();
+      set_basis(one);
+      one.sums.resize(one.basis.size() + 2), one.totals.resize(one.sums.size());
     }
 }
 
@@ -73,17 +76,18 @@ void Openings::set_basis(One& opening) const {
     }
 }
 
-void Openings::set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) const {
-  for (const One& opening : openings_) {
+void Openings::set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) {
+  for (One& opening : openings_) {
     const auto inward = [&](Index f) { return -dot(u[mesh_.owner[f]], opening.normal); };
-    std::vector<Sum> sums(opening.basis.size() + 2);
+    std::vector<Sum>& sums = opening.sums;
+    std::vector<Real>& total = opening.totals;
+    std::ranges::fill(sums, Sum{});
     for (Index j = 0; j < opening.faces(); ++j) {
       const Real flow = norm(mesh_.Sf[opening.patch.begin + j]) * inward(opening.patch.begin + j);
       for (std::size_t k = 0; k < opening.basis.size(); ++k)
         sums[k].add(flow * opening.basis[k][j]);
       sums.end()[-2].add(flow), sums.back().add(std::max(flow, Real{0}));
     }
-    std::vector<Real> total(sums.size());
     Sum::totals(total, sums);
     const Real net = total.end()[-2], in = total.back();
     const Real s = in > 0 ? std::max(net, Real{0}) / in : 0;
@@ -100,7 +104,8 @@ void Openings::set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) 
 
 void Openings::advance(BoundaryField<Real>& q_b, Real t, Real factor) {
   for (One& opening : openings_) {
-    const Real before = std::exchange(opening.pressure, opening.given(t));
+    const Real before = opening.pressure;
+    if (!opening.load.any()) opening.pressure = opening.given(t);
     const Real rise = factor * (opening.pressure - before);
     for (Index j = 0; j < opening.faces(); ++j)
       q_b[opening.patch.begin + j - mesh_.n_internal] = rise;

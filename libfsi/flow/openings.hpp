@@ -1,8 +1,10 @@
 #pragma once
 // What stands at the openings of the boundary: pressure and velocity there.
 
+#include <cstdint>
 #include <vector>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
@@ -28,8 +30,8 @@ class Openings {
   Openings(const Mesh& mesh, const std::vector<Condition>& conditions, Real rho);
 
   /// Collective. Pressure on the faces of openings. u: owned.
-  void set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) const;
-  /// `pressure` goes on to time t; q_b = factor times its change.
+  void set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u);
+  /// `pressure` of openings without a load goes on to time t; q_b = factor times its change.
   void advance(BoundaryField<Real>& q_b, Real t, Real factor);
   /// Velocity on the faces of openings: no gradient along the normal,
   ///   u_b = u_P + L_f . t,  t the part of d along the face.
@@ -43,12 +45,21 @@ class Openings {
   struct One {
     Patch patch;
     OfTime given;
-    Real pressure = 0;  ///< in the middle of the last step, part of a checkpoint
+    Load load;
+    // part of a checkpoint:
+    Real pressure = 0;            ///< in the middle of the last step
+    Real stored = 0;              ///< of the load's capacitance, at the end of the last step
+    Real flow = 0;                ///< out of a loaded opening, at the end of the last step
+    std::int64_t flow_known = 0;  ///< whether there was one
+    Real trend = 0;               ///< change of flow in the last step, per time
     Vec3 normal{};
     std::vector<std::vector<Real>> basis{};  ///< [functions][faces], orthonormal by area
+    std::vector<Sum> sums{};                 ///< scratch
+    std::vector<Real> totals{};              ///< scratch
     Index faces() const { return patch.end - patch.begin; }
   };
   std::vector<One>& all() { return openings_; }
+  const std::vector<One>& all() const { return openings_; }
 
  private:
   void set_basis(One& opening) const;

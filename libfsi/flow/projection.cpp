@@ -74,8 +74,7 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
-      adjustable_[f - mesh.n_internal] =
-          std::holds_alternative<FixedVelocity>(conditions[i]) ? 1 : 0;
+      adjustable_[f - mesh.n_internal] = prescribes_flow(conditions[i]) ? 1 : 0;
     }
   Sum area, conductance;
   for (Index b = 0; b < mesh.n_boundary(); ++b) {

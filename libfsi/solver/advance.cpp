@@ -53,6 +53,21 @@ bool Solver::stuck(Real dt) {
   return tiny_steps_ > most;
 }
 
+Solver::Calls::Calls(Profile& profile)
+    : update_gradients(profile.add("update_gradients", "momentum")),
+      advance_interface(profile.add("advance_interface", "vof")),
+      carry_pressure(profile.add("carry_pressure", "solid")),
+      transport_elastic(profile.add("transport_elastic", "solid")),
+      mix_viscosity(profile.add("mix_viscosity", "solid")),
+      set_elastic_force(profile.add("set_elastic_force", "solid")),
+      stiffen(profile.add("stiffen", "solid")),
+      drive(profile.add("drive", "momentum")),
+      predict_momentum(profile.add("predict_momentum", "momentum")),
+      predict_flux(profile.add("predict_flux", "flux")),
+      project(profile.add("project", "pressure")),
+      hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
+      check(profile.add("check", "flux")) {}
+
 void Solver::synchronise() {
   if (!body_ || body_->t == state_.t) return;
   advance_interface(state_.t);

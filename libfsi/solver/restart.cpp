@@ -2,6 +2,20 @@
 
 namespace fsi {
 
+namespace {
+
+void list_opening(io::Snapshot& snapshot, flow::Openings::One& opening) {
+  const std::string& name = opening.patch.name;
+  snapshot.add("pressure_" + name, &opening.pressure);
+  if (!opening.load.any()) return;
+  snapshot.add("stored_" + name, &opening.stored);
+  snapshot.add("flow_" + name, &opening.flow);
+  snapshot.add("flow_known_" + name, &opening.flow_known);
+  snapshot.add("trend_" + name, &opening.trend);
+}
+
+}  // namespace
+
 void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("t", &state_.t);
   snapshot.add("step", &state_.step);
@@ -16,8 +30,7 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
   snapshot.add("momentum_dt_before", &momentum_.dt_before);
   snapshot.add("momentum_steps", &momentum_.steps_taken);
-  for (flow::Openings::One& opening : openings_.all())
-    snapshot.add("pressure_" + opening.patch.name, &opening.pressure);
+  for (flow::Openings::One& opening : openings_.all()) list_opening(snapshot, opening);
   snapshot.add("dt_cap", &dt_cap_);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
   if (body_) body_->list(snapshot);

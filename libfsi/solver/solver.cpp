@@ -26,24 +26,11 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
 
 }  // namespace
 
-Solver::Calls::Calls(Profile& profile)
-    : update_gradients(profile.add("update_gradients", "momentum")),
-      advance_interface(profile.add("advance_interface", "vof")),
-      carry_pressure(profile.add("carry_pressure", "solid")),
-      transport_elastic(profile.add("transport_elastic", "solid")),
-      mix_viscosity(profile.add("mix_viscosity", "solid")),
-      set_elastic_force(profile.add("set_elastic_force", "solid")),
-      stiffen(profile.add("stiffen", "solid")),
-      predict_momentum(profile.add("predict_momentum", "momentum")),
-      predict_flux(profile.add("predict_flux", "flux")),
-      project(profile.add("project", "pressure")),
-      hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
-      check(profile.add("check", "flux")) {}
-
 Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
     : mesh_(mesh),
       physics_(physics),
       conditions_(resolve(setup.conditions, mesh)),
+      driving_force_(setup.body_force),
       weights_(mesh),
       state_(mesh),
       u_b_(mesh),
@@ -65,6 +52,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       openings_(mesh, conditions_, physics.rho),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
+      loads_(mesh, projection_, openings_, physics.rho),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
@@ -136,10 +124,11 @@ void Solver::step(Real dt) {
     set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
     stiffen(dt);          // + div(kappa grad (u* - u^n)) + ...       stiffness.hpp
   }
-  predict_momentum(dt);    // du/dt + div(u u) = ...                  [Matsumiya25] (12)
-  predict_flux(dt);        // phi* from u*                            [Rhie83]
-  project(dt);             // div u = 0                               [Matsumiya25] (1)
-  hold_mean_velocity(dt);  // S                                       [Matsumiya25] (12)
+  drive(state_.t + dt / 2);  // f += f(x, t)
+  predict_momentum(dt);      // du/dt + div(u u) = ...                  [Matsumiya25] (12)
+  predict_flux(dt);          // phi* from u*                            [Rhie83]
+  project(dt);               // div u = 0                               [Matsumiya25] (1)
+  hold_mean_velocity(dt);    // S                                       [Matsumiya25] (12)
   check();
   state_.t += dt;
   ++state_.step;
@@ -310,6 +299,13 @@ void Solver::set_elastic_force() {
     body_force_->apply(force_, balance_, body_->alpha_f, projection_.stencil(), body_->band);
 }
 
+void Solver::drive(Real t) {
+  const Profile::Call call(profile_, calls_.drive);
+  if (!driving_force_) return;
+  if (!body_) force_.fill({});
+  for (Index c = 0; c < mesh_.n_owned; ++c) force_[c] += driving_force_(mesh_.C[c], t);
+}
+
 void Solver::predict_momentum(Real dt) {
   const Profile::Call call(profile_, calls_.predict_momentum);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
@@ -360,6 +356,7 @@ void Solver::project(Real dt) {
   openings_.advance(q_b_, state_.t + dt / 2, dt / physics_.rho);
   const Solve solve =
       projection_.project(state_.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
+  loads_.answer(state_.phi, q_, grad_q_, state_.t + dt / 2, dt);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state_.u[c] -= grad_q_[c];
     state_.p[c] += physics_.rho / dt * q_[c];
@@ -383,6 +380,12 @@ void Solver::check() {
     for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
+}
+
+Real Solver::opening_pressure(const std::string& patch) const {
+  for (const flow::Openings::One& opening : openings_.all())
+    if (opening.patch.name == patch) return opening.pressure;
+  throw Error(Kind::input, "patch \"" + patch + "\" is no opening");
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

@@ -13,6 +13,7 @@
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/flow/forcing.hpp"
+#include "libfsi/flow/loads.hpp"
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/openings.hpp"
 #include "libfsi/flow/projection.hpp"
@@ -40,6 +41,8 @@ struct FlowSetup {
   std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
   int non_orthogonal_correctors = 1;
   flow::Convection convection = flow::Convection::linear;
+  /// Force per volume on fluid and solid at x and t; none where empty.
+  std::function<Vec3(const Vec3& x, Real t)> body_force{};
 };
 
 /// The unknowns at time t.
@@ -123,6 +126,10 @@ class Solver {
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
   const BoundaryField<Real>& p_b() const { return p_b_; }
+  /// What is given at an opening in the middle of the last step, behind its load's answer.
+  /// Errors: Error{input} where that patch is none.
+  Real opening_pressure(const std::string& patch) const;
+  const std::vector<Condition>& conditions() const { return conditions_; }
   /// Velocity gradient at the state's time; collective.
   const CellField<Tensor>& velocity_gradient();
   /// Driving pressure gradient S; zero without a mean velocity.
@@ -140,6 +147,7 @@ class Solver {
   void mix_viscosity();
   void set_elastic_force();
   void stiffen(Real dt);
+  void drive(Real t);
   void predict_momentum(Real dt);
   void predict_flux(Real dt);
   void project(Real dt);
@@ -173,8 +181,8 @@ class Solver {
   struct Calls {
     explicit Calls(Profile& profile);
     int update_gradients, advance_interface, carry_pressure, transport_elastic, mix_viscosity,
-        set_elastic_force, stiffen, predict_momentum, predict_flux, project, hold_mean_velocity,
-        check;
+        set_elastic_force, stiffen, drive, predict_momentum, predict_flux, project,
+        hold_mean_velocity, check;
   };
 
   /// What the surface between two viscosities needs.
@@ -191,6 +199,7 @@ class Solver {
   const Mesh& mesh_;
   Physics physics_;
   std::vector<Condition> conditions_;
+  std::function<Vec3(const Vec3&, Real)> driving_force_;
   FaceWeights weights_;
   State state_;
   BoundaryField<Vec3> u_b_, u_b_new_;
@@ -206,6 +215,7 @@ class Solver {
   std::vector<std::pair<Index, Tensor>> sided_L_f_;  // what stands there beside the surface
   flow::Openings openings_;
   flow::Projection projection_;
+  flow::Loads loads_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::optional<Body> body_;

@@ -19,7 +19,7 @@ TEST(Calls, EveryOneOfAStepHasALogEvent) {
   solver.start([](const Vec3&) { return Vec3{}; });
   for (const std::string name :
        {"update_gradients", "advance_interface", "transport_elastic", "mix_viscosity",
-        "set_elastic_force", "stiffen", "predict_momentum", "predict_flux", "project",
+        "set_elastic_force", "stiffen", "drive", "predict_momentum", "predict_flux", "project",
         "hold_mean_velocity", "check"}) {
     PetscLogEvent event = -1;
     FSI_PETSC(PetscLogEventGetId(("fsi " + name).c_str(), &event));

@@ -1,0 +1,201 @@
+#include "libfsi/field/inflow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+using Point = std::array<Real, 3>;
+using Side = std::array<Point, 2>;
+
+Vec3 vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+/// The corners of a patch's faces, of all ranks.
+std::vector<std::vector<Point>> faces_of(const Patch& patch, const Mesh& mesh) {
+  std::vector<Real> mine;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    mine.push_back(static_cast<Real>(mesh.face_points[f].size()));
+    for (const Index p : mesh.face_points[f])
+      for (int i = 0; i < 3; ++i) mine.push_back(mesh.points[p][i]);
+  }
+  const std::vector<Real> all = gathered(mine);
+  std::vector<std::vector<Point>> faces;
+  for (std::size_t at = 0; at < all.size();) {
+    const auto corners = static_cast<std::size_t>(all[at++]);
+    std::vector<Point>& face = faces.emplace_back();
+    for (std::size_t i = 0; i < corners; ++i, at += 3)
+      face.push_back({all[at], all[at + 1], all[at + 2]});
+  }
+  return faces;
+}
+
+/// In 2-D the ends of a face, each twice.
+std::vector<Side> sides_of(const std::vector<Point>& face) {
+  if (face.size() == 2) return {{face[0], face[0]}, {face[1], face[1]}};
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    Side side{face[i], face[(i + 1) % face.size()]};
+    if (side[1] < side[0]) std::swap(side[0], side[1]);
+    sides.push_back(side);
+  }
+  return sides;
+}
+
+/// A segment or a triangle between nodes, and its size.
+struct Element {
+  std::array<int, 3> nodes;
+  int n;
+  Real size;
+};
+
+/// Linear finite elements of Lap w = -1.
+class Section {
+ public:
+  Section(const std::vector<std::vector<Point>>& faces, const std::set<Side>& free);
+
+  /// w at the nodes by conjugate gradients. Returns false where no node is inside.
+  bool solve();
+  /// Integral of w over a face.
+  Real integral(const std::vector<Point>& face) const {
+    Real sum = 0;
+    for (const Element& e : elements_of(face))
+      for (int i = 0; i < e.n; ++i) sum += e.size / e.n * w_[e.nodes[i]];
+    return sum;
+  }
+
+ private:
+  std::vector<Element> elements_of(const std::vector<Point>& face) const;
+  Element element(const std::vector<Point>& corners) const;
+  void multiply(std::vector<Real>& out, const std::vector<Real>& in) const;
+
+  std::map<Point, int> number_;
+  std::vector<Element> elements_;
+  std::vector<std::array<std::array<Real, 3>, 3>> stiffness_;  // [elements]
+  std::vector<char> fixed_;
+  std::vector<Real> w_;
+};
+
+Element Section::element(const std::vector<Point>& corners) const {
+  Element e{{0, 0, 0}, static_cast<int>(corners.size()), 0};
+  for (int i = 0; i < e.n; ++i) e.nodes[i] = number_.at(corners[i]);
+  const Vec3 a = vector(corners[1]) - vector(corners[0]);
+  e.size = e.n == 2 ? norm(a) : norm(cross(a, vector(corners[2]) - vector(corners[0]))) / 2;
+  return e;
+}
+
+std::vector<Element> Section::elements_of(const std::vector<Point>& face) const {
+  if (face.size() < 4) return {element(face)};
+  std::vector<Element> parts;
+  for (std::size_t i = 2; i < face.size(); ++i)
+    parts.push_back(element({face[0], face[i - 1], face[i]}));
+  return parts;
+}
+
+Section::Section(const std::vector<std::vector<Point>>& faces, const std::set<Side>& free) {
+  std::map<Side, int> count;
+  for (const auto& face : faces) {
+    for (const Point& p : face) number_.emplace(p, 0);
+    for (const Side& side : sides_of(face)) ++count[side];
+  }
+  std::vector<Vec3> x;
+  for (auto& [point, number] : number_)
+    number = static_cast<int>(x.size()), x.push_back(vector(point));
+  fixed_.assign(x.size(), 0), w_.assign(x.size(), 0);
+  for (const auto& [side, times] : count)
+    if (times == 1 && !free.contains(side))
+      for (const Point& p : side) fixed_[number_.at(p)] = 1;
+  for (const auto& face : faces)
+    for (const Element& e : elements_of(face)) {
+      elements_.push_back(e);
+      auto& K = stiffness_.emplace_back();
+      for (int i = 0; i < e.n; ++i)
+        for (int j = 0; j < e.n; ++j) {
+          // int grad N_i . grad N_j: e_i . e_j / (4 A), e_i the side across from node i
+          const auto across = [&](int k) {
+            return x[e.nodes[(k + 2) % 3]] - x[e.nodes[(k + 1) % 3]];
+          };
+          K[i][j] =
+              e.n == 2 ? (i == j ? 1 : -1) / e.size : dot(across(i), across(j)) / (4 * e.size);
+        }
+    }
+}
+
+void Section::multiply(std::vector<Real>& out, const std::vector<Real>& in) const {
+  std::ranges::fill(out, 0.0);
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const Element& e = elements_[k];
+    for (int i = 0; i < e.n; ++i)
+      for (int j = 0; j < e.n; ++j) out[e.nodes[i]] += stiffness_[k][i][j] * in[e.nodes[j]];
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (fixed_[i] != 0) out[i] = 0;
+}
+
+bool Section::solve() {
+  std::vector<Real> r(w_.size()), Kp(w_.size());
+  for (const Element& e : elements_)
+    for (int i = 0; i < e.n; ++i) r[e.nodes[i]] += e.size / e.n;
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (fixed_[i] != 0) r[i] = 0;
+  const auto product = [](const std::vector<Real>& a, const std::vector<Real>& b) {
+    Real sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  std::vector<Real> p = r;
+  Real now = product(r, r);
+  const Real enough = 1e-24 * now;
+  if (now == 0) return false;
+  for (std::size_t i = 0; i < 10 * w_.size() && now > enough; ++i) {
+    multiply(Kp, p);
+    const Real step = now / product(p, Kp), before = now;
+    for (std::size_t k = 0; k < w_.size(); ++k) w_[k] += step * p[k], r[k] -= step * Kp[k];
+    now = product(r, r);
+    for (std::size_t k = 0; k < w_.size(); ++k) p[k] = r[k] + now / before * p[k];
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,
+                               const std::vector<Patch>& free) {
+  std::array<Sum, 3> sums;
+  for (Index f = patch.begin; f < patch.end; ++f)
+    for (int i = 0; i < 3; ++i) sums[i].add(mesh.Sf[f][i]);
+  const Vec3 area{sums[0].total(), sums[1].total(), sums[2].total()};
+  require(norm(area) > 0, "patch \"" + patch.name + "\" has no net area to flow through");
+  const Vec3 n = area / norm(area);
+  std::vector<Real> w(static_cast<std::size_t>(patch.end - patch.begin), 1);
+  if (profile == InflowProfile::parabola) {
+    std::set<Side> sides;
+    for (const Patch& other : free)
+      for (const auto& face : faces_of(other, mesh))
+        for (const Side& side : sides_of(face)) sides.insert(side);
+    Section section(faces_of(patch, mesh), sides);
+    require(section.solve(), "patch \"" + patch.name +
+                                 "\" is too coarse for a parabola: no corner of its faces lies " +
+                                 "inside; refine the mesh or take a plug");
+    for (Index f = patch.begin; f < patch.end; ++f) {
+      std::vector<Point> face;
+      for (const Index p : mesh.face_points[f])
+        face.push_back({mesh.points[p].x, mesh.points[p].y, mesh.points[p].z});
+      w[f - patch.begin] = section.integral(face) / norm(mesh.Sf[f]);
+    }
+  }
+  Sum flow;
+  for (Index f = patch.begin; f < patch.end; ++f) flow.add(w[f - patch.begin] * dot(n, mesh.Sf[f]));
+  const Real total = flow.total();
+  std::vector<Vec3> shape;
+  for (const Real value : w) shape.push_back((-value / total) * n);
+  return shape;
+}
+
+}  // namespace fsi

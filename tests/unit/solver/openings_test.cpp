@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+Mesh channel(Index n, bool triangles = false) {
+  return test::read_box({.n = {2 * n, n, 0}, .length = {2, 1, 1}, .simplex = triangles});
+}
+
+Real flow_rate(const Solver& solver, const std::string& name) {
+  const Patch& patch = solver.mesh().patch(name);
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(solver.state().phi[f]);
+  return sum.total();
+}
+
+Real pressure(const Solver& solver, const std::string& name) {
+  const Patch& patch = solver.mesh().patch(name);
+  Sum p, area;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    p.add(norm(solver.mesh().Sf[f]) * solver.p_b()[f - solver.mesh().n_internal]);
+    area.add(norm(solver.mesh().Sf[f]));
+  }
+  return p.total() / area.total();
+}
+
+Real net_flow(const Solver& solver) {
+  Sum sum;
+  for (Index f = solver.mesh().n_internal; f < solver.mesh().n_faces; ++f)
+    sum.add(solver.state().phi[f]);
+  return sum.total();
+}
+
+TEST(Inflow, AParabolaIsTheDevelopedFlowAndCarriesItsRate) {
+  for (const bool triangles : {false, true}) {
+    const Mesh mesh = channel(8, triangles);
+    const Patch& left = mesh.patch("left");
+    const std::vector<Vec3> shape = inflow_shape(InflowProfile::parabola, left, mesh, {});
+    Sum rate;
+    for (Index f = left.begin; f < left.end; ++f) {
+      const Real y = mesh.Cf[f].y, h = norm(mesh.Sf[f]);
+      // the finite elements are exact at the nodes; the mean of their straight line over a face
+      EXPECT_NEAR(shape[f - left.begin].x, 6 * (y * (1 - y) - h * h / 4) / (1 - h * h), 1e-10);
+      rate.add(dot(shape[f - left.begin], mesh.Sf[f]));
+    }
+    EXPECT_NEAR(rate.total(), -1, 1e-13);
+  }
+}
+
+TEST(Inflow, APlaneWithoutFrictionDoesNotHoldIt) {
+  const Mesh mesh = channel(8);
+  const Patch& left = mesh.patch("left");
+  const std::vector<Vec3> half =
+      inflow_shape(InflowProfile::parabola, left, mesh, {mesh.patch("top")});
+  for (Index f = left.begin; f < left.end; ++f) {
+    const Real y = mesh.Cf[f].y;
+    EXPECT_NEAR(half[f - left.begin].x, 1.5 * y * (2 - y), 0.02);
+  }
+}
+
+TEST(Openings, FlowRatesWithoutAWayOutAreRefused) {
+  const Mesh mesh = channel(4);
+  Conditions conditions{
+      {"left", FlowRate{1}}, {"right", FlowRate{-0.9}}, {"bottom", Wall{}}, {"top", Wall{}}};
+  EXPECT_THROW(resolve(conditions, mesh), Error);
+  conditions["right"] = FlowRate{-1};
+  EXPECT_NO_THROW(resolve(conditions, mesh));
+  conditions["right"] = Opening{.pressure = 0, .load = {.capacitance = 1}};
+  EXPECT_THROW(resolve(conditions, mesh), Error);
+}
+
+// Q = p / (R + 12 mu L): Poiseuille's resistance of the channel in series with that beyond it.
+TEST(Openings, AResistanceBeyondTheOutletStandsInSeries) {
+  const Mesh mesh = channel(16);
+  const Real mu = 0.5, R = 30;
+  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+                {.conditions = {{"left", Opening{1}},
+                                {"right", Opening{.pressure = 0.25, .load = {.proximal = R}}},
+                                {"bottom", Wall{}},
+                                {"top", Wall{}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < 100; ++i) {
+    solver.step(0.05);
+    ASSERT_NEAR(net_flow(solver), 0, 1e-13);
+  }
+  const Real Q = flow_rate(solver, "right");
+  EXPECT_NEAR(Q, 0.75 / (R + 12 * mu * 2), 3e-3 * Q);
+  EXPECT_NEAR(pressure(solver, "right"), 0.25 + R * Q, 1e-6);
+}
+
+/// Largest error of the outlet's pressure, from the windkessel under a given pulse.
+Real windkessel_error(Real dt) {
+  const Load load{.proximal = 2, .distal = 10, .capacitance = 0.05, .stored = 1};
+  const auto Q = [](Real t) { return std::pow(std::sin(std::numbers::pi * t), 2); };
+  const Mesh mesh = channel(4);
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+                {.conditions = {{"left", FlowRate{Q}},
+                                {"right", Opening{.pressure = 0, .load = load}},
+                                {"bottom", Wall{}},
+                                {"top", Wall{}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  // p_c by steps a hundredth as long
+  Real p_c = load.stored, worst = 0;
+  const auto slope = [&](Real t, Real p) { return (Q(t) - p / load.distal) / load.capacitance; };
+  for (int i = 0; i < static_cast<int>(std::lround(2 / dt)); ++i) {
+    solver.step(dt);
+    const auto go = [&](Real t, Real h) {
+      const Real k1 = slope(t, p_c), k2 = slope(t + h / 2, p_c + h / 2 * k1),
+                 k3 = slope(t + h / 2, p_c + h / 2 * k2), k4 = slope(t + h, p_c + h * k3);
+      p_c += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    };
+    for (int k = 0; k < 50; ++k) go(i * dt + k * dt / 100, dt / 100);
+    const Real middle = (i + 0.5) * dt;
+    if (i >= 2)
+      worst = std::max(
+          worst, std::abs(solver.opening_pressure("right") - (load.proximal * Q(middle) + p_c)));
+    for (int k = 50; k < 100; ++k) go(i * dt + k * dt / 100, dt / 100);
+  }
+  return worst;
+}
+
+TEST(Openings, AWindkesselFollowsItsEquationToSecondOrder) {
+  const Real coarse = windkessel_error(1.0 / 40), fine = windkessel_error(1.0 / 80);
+  std::printf("windkessel, dt 1/40 and 1/80: p off by %.2e %.2e, order %.2f\n", coarse, fine,
+              std::log2(coarse / fine));
+  EXPECT_LE(fine, 0.01);
+  EXPECT_GE(std::log2(coarse / fine), 1.8);
+}
+
+TEST(Openings, ABodyForceDrivesLikeAPressure) {
+  const Mesh mesh = channel(16, true);
+  const Real mu = 0.5;
+  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+                {.conditions = {{"left", Opening{0}},
+                                {"right", Opening{0}},
+                                {"bottom", Wall{}},
+                                {"top", Wall{}}},
+                 .body_force = [](const Vec3&, Real) {
+                   return Vec3{1, 0, 0};
+                 }});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < 60; ++i) solver.step(0.05);
+  EXPECT_NEAR(flow_rate(solver, "right"), 1 / (12 * mu), 0.01 / (12 * mu));
+}
+
+}  // namespace
+}  // namespace fsi
