@@ -16,4 +16,5 @@
 #include "libfsi/solver/carried.hpp"
 #include "libfsi/solver/case.hpp"
 #include "libfsi/solver/output.hpp"
+#include "libfsi/solver/patches.hpp"
 #include "libfsi/solver/solver.hpp"

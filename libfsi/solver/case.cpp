@@ -168,6 +168,11 @@ void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
       which.mesh.file.c_str(), static_cast<long long>(mesh.n_global), mesh.dim, ranks(),
       q.non_orthogonality_max, q.non_orthogonality_mean, q.skewness_max);
   const Physics& p = which.physics;
+  if (velocity == 0) {
+    std::printf("the flow decides on Re: column reynolds of flow.csv\n");
+    std::fflush(stdout);
+    return;
+  }
   std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
               length, velocity);
   if (which.solid.shape) {

@@ -31,6 +31,8 @@ struct OutputSetup {
 /// The undeformed solid; no shape: no solid.
 struct SolidSetup {
   std::optional<shapes::Shape> shape;
+  std::optional<shapes::Shape> about_origin;  ///< the same, its axis of revolution along x
+  Real angle = 0;                             ///< between that axis and x when placed, in degrees
   std::string name = "none";
   Real thickness = 0;  ///< the least of its dimensions
   KinematicsKind kinematics = KinematicsKind::log_conformation;
@@ -61,7 +63,7 @@ std::string simulated(const Options& options);
 std::string differences(const std::string& before, const std::string& now);
 
 /// Collective. Prints what the run is about: mesh, quality, and the numbers that follow from the
-/// case's length and velocity.
+/// case's length and velocity; velocity 0: it is not known yet, and what depends on it is left out.
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity);
 
 /// Collective. Every limit on the time step; a fixed step is the only one.

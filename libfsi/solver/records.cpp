@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "libfsi/analysis/measures.hpp"
@@ -37,15 +39,19 @@ Real period(const Solver& solver) {
   return length;
 }
 
+Real flow_rate(const Solver& solver, const Patch& patch) {
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(solver.state().phi[f]);
+  return sum.total();
+}
+
 Real flow_rate(const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const Real length = period(solver);
   if (length > 0) return solver.mean_velocity() * mesh.total_volume / length;
   const Patch* outlet = find(mesh, "outlet");
   if (outlet == nullptr) return 0;
-  Sum sum;
-  for (Index f = outlet->begin; f < outlet->end; ++f) sum.add(solver.state().phi[f]);
-  return sum.total();
+  return flow_rate(solver, *outlet);
 }
 
 Real mean_pressure(const Solver& solver, const Patch& patch) {
@@ -62,6 +68,42 @@ Real pressure_drop(const Solver& solver) {
   const Patch *inlet = find(solver.mesh(), "inlet"), *outlet = find(solver.mesh(), "outlet");
   if (inlet == nullptr || outlet == nullptr) return solver.driving_gradient() * period(solver);
   return mean_pressure(solver, *inlet) - mean_pressure(solver, *outlet);
+}
+
+Real area(const Patch& patch, const Mesh& mesh) {
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
+  return sum.total();
+}
+
+Real mean_pressure_beside(const Solver& solver, const Patch& patch) {
+  const Mesh& mesh = solver.mesh();
+  Sum p;
+  for (Index f = patch.begin; f < patch.end; ++f)
+    p.add(norm(mesh.Sf[f]) * solver.state().p[mesh.owner[f]]);
+  return p.total() / area(patch, mesh);
+}
+
+/// Columns of each patch that fluid goes through, and the largest Reynolds number there.
+void add_openings(std::vector<Entry>& row, const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  Real velocity_length = 0;
+  bool any = false;
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    const Patch& patch = mesh.patches[i];
+    const Condition& condition = solver.conditions()[i];
+    const bool open = fixes_pressure(condition);
+    if (!open && !prescribes_flow(condition)) continue;
+    any = true;
+    const Real Q = flow_rate(solver, patch), A = area(patch, mesh);
+    row.push_back({"flow_rate_" + patch.name, Q});
+    row.push_back({"mean_pressure_" + patch.name, open ? solver.opening_pressure(patch.name)
+                                                       : mean_pressure_beside(solver, patch)});
+    const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
+    velocity_length = std::max(velocity_length, std::abs(Q) / A * D);
+  }
+  if (any)
+    row.push_back({"reynolds", solver.physics().rho * velocity_length / solver.physics().mu_f});
 }
 
 Real pressure_span(const Solver& solver) {
@@ -136,22 +178,25 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
   const Real elastic =
       body ? analysis::elastic_energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh)
            : 0;
-  return {{"t", solver.state().t},
-          {"dt", dt},
-          {"dt_limit", limit.dt},
-          {"limit", limit_code(limit.name)},
-          {"courant", dt / solver.advective_dt(1)},
-          {"pressure_gradient", solver.driving_gradient()},
-          {"pressure_drop", pressure_drop(solver)},
-          {"pressure_span", pressure_span(solver)},
-          {"flow_rate", flow_rate(solver)},
-          {"mean_velocity", solver.mean_velocity()},
-          {"divergence_max", flow::divergence_max(solver.state().phi, mesh)},
-          {"kinetic_energy", kinetic_energy(solver)},
-          {"elastic_energy", elastic},
-          {"rejected_steps", static_cast<Real>(solver.report().rejected)},
-          {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations)},
-          {"wall_per_step", wall_per_step}};
+  std::vector<Entry> row{
+      {"t", solver.state().t},
+      {"dt", dt},
+      {"dt_limit", limit.dt},
+      {"limit", limit_code(limit.name)},
+      {"courant", dt / solver.advective_dt(1)},
+      {"pressure_gradient", solver.driving_gradient()},
+      {"pressure_drop", pressure_drop(solver)},
+      {"pressure_span", pressure_span(solver)},
+      {"flow_rate", flow_rate(solver)},
+      {"mean_velocity", solver.mean_velocity()},
+      {"divergence_max", flow::divergence_max(solver.state().phi, mesh)},
+      {"kinetic_energy", kinetic_energy(solver)},
+      {"elastic_energy", elastic},
+      {"rejected_steps", static_cast<Real>(solver.report().rejected)},
+      {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations)},
+      {"wall_per_step", wall_per_step}};
+  add_openings(row, solver);
+  return row;
 }
 
 std::vector<Entry> SolidRecord::row(const Solver& solver) {

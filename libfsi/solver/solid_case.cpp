@@ -60,7 +60,7 @@ SolidSetup read_solid(Options& options, Physics& physics) {
           "option -solid_density: only a solid as dense as the fluid can be run so far");
   physics.mu_s = options.real(
       "solid_viscosity", physics.mu_f,
-      {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .positive = true});
+      {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
   physics.G = options.real("solid_shear_modulus", 1,
                            {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
   options.choice("solid_law", "neo_hookean", {"neo_hookean"}, "elastic law");
@@ -78,6 +78,7 @@ SolidSetup read_solid(Options& options, Physics& physics) {
                    {.help = "body force on the solid alone, per mass", .unit = "length / time^2"});
 
   const shapes::Shape shape = undeformed(options, solid.name, solid.thickness);
+  solid.about_origin = shape;
   const Vec3 centre = options.vec3("solid_center", {0.5, 0.5, 0.5},
                                    {.help = "centre of the shape", .unit = "length"});
   if (options.given("solid_axis")) {
@@ -95,6 +96,7 @@ SolidSetup read_solid(Options& options, Physics& physics) {
        .unit = "degrees",
        .min = -360,
        .max = 360});
+  solid.angle = angle;
   solid.shape =
       shapes::translate(shapes::rotate(shape, {0, 0, 1}, angle * std::numbers::pi / 180), centre);
   return solid;

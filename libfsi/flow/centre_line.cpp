@@ -1,0 +1,79 @@
+#include "libfsi/flow/centre_line.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/projection.hpp"
+
+namespace fsi::flow {
+namespace {
+
+Vec3 centre_of(const Patch& patch, const Mesh& mesh) {
+  std::array<Sum, 4> sums;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Real area = norm(mesh.Sf[f]);
+    for (int i = 0; i < 3; ++i) sums[i].add(area * mesh.Cf[f][i]);
+    sums[3].add(area);
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  return Vec3{total[0], total[1], total[2]} / total[3];
+}
+
+}  // namespace
+
+CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::string& to) {
+  Conditions conditions;
+  for (const Patch& patch : mesh.patches) conditions[patch.name] = Slip{};
+  conditions[mesh.patch(from).name] = conditions[mesh.patch(to).name] = Opening{};
+  const FaceWeights weights(mesh);
+  Projection projection(mesh, weights, resolve(conditions, mesh), Method::multigrid, 1);
+  FaceField<Real> phi(mesh);
+  CellField<Real> q(mesh);
+  CellField<Vec3> grad(mesh);
+  BoundaryField<Real> q_b(mesh);
+  const Patch& first = mesh.patch(from);
+  for (Index f = first.begin; f < first.end; ++f) q_b[f - mesh.n_internal] = 1;
+  constexpr Real tolerance = 1e-9;
+  projection.project(phi, q, grad, q_b, tolerance * mesh.total_volume);
+
+  // Slices at least about two cells long, by the volume: potential falls faster where it is narrow.
+  const Real across = std::cbrt(static_cast<Real>(mesh.n_global));
+  const int slices = std::clamp(static_cast<int>(across), 4, 200);
+  std::vector<Sum> sums(4 * static_cast<std::size_t>(slices));
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const int k = std::clamp(static_cast<int>((1 - q[c]) * slices), 0, slices - 1);
+    const Real weight = mesh.V[c] * norm2(grad[c]);
+    for (int i = 0; i < 3; ++i) sums[4 * k + i].add(weight * mesh.C[c][i]);
+    sums[4 * k + 3].add(weight);
+  }
+  std::vector<Real> total(sums.size());
+  Sum::totals(total, sums);
+  points_.push_back(centre_of(first, mesh));
+  for (int k = 0; k < slices; ++k)
+    if (const Real weight = total[4 * k + 3]; weight > 0)
+      points_.push_back(Vec3{total[4 * k], total[4 * k + 1], total[4 * k + 2]} / weight);
+  points_.push_back(centre_of(mesh.patch(to), mesh));
+  arc_.push_back(0);
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    arc_.push_back(arc_.back() + norm(points_[i] - points_[i - 1]));
+}
+
+std::pair<Vec3, Vec3> CentreLine::at(Real s) const {
+  const auto next = std::ranges::upper_bound(arc_, s);
+  const auto i = std::clamp<std::ptrdiff_t>(next - arc_.begin(), 1,
+                                            static_cast<std::ptrdiff_t>(arc_.size()) - 1);
+  const Vec3 step = points_[i] - points_[i - 1];
+  const Real share = (s - arc_[i - 1]) / (arc_[i] - arc_[i - 1]);
+  // The direction over a few slices: single ones lie as near to each other as they are uneven.
+  const std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, i - 3),
+                       high = std::min<std::ptrdiff_t>(
+                           static_cast<std::ptrdiff_t>(points_.size()) - 1, i + 2);
+  const Vec3 along = points_[high] - points_[low];
+  return {points_[i - 1] + share * step, along / norm(along)};
+}
+
+}  // namespace fsi::flow
