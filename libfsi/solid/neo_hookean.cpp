@@ -3,6 +3,15 @@
 #include <cmath>
 
 namespace fsi::solid {
+namespace {
+
+/// tau . S on a boundary face; on a plane of symmetry its part along the normal.
+Vec3 traction(const SymTensor& tau, const Vec3& S, bool mirror) {
+  const Vec3 t = dot(tau, S);
+  return mirror ? (dot(t, S) / norm2(S)) * S : t;
+}
+
+}  // namespace
 
 NeoHookean::NeoHookean(const Mesh& mesh, const FaceWeights& weights, Real G)
     : mesh_(mesh), G_(G), level_(mesh, weights) {}
@@ -18,7 +27,8 @@ void NeoHookean::push_mixed(CellField<Vec3>& force, FaceField<Real>& balance, co
     if (f >= mesh_.n_internal) {
       // tau_b = tau_P + grad tau . d
       const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
-      force[P] += (1 / mesh_.V[P]) * dot(G_ * dev(aB_b), mesh_.Sf[f]);
+      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
+      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aB_b), mesh_.Sf[f], mirror);
       continue;
     }
     const Index N = mesh_.neighbour[f];
@@ -48,10 +58,11 @@ void NeoHookean::push_sharp(CellField<Vec3>& force, FaceField<Real>& balance, co
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
       // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
+      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
       const SymTensor tau = G_ * dev(B[P] + along(grad[P], d));
       const Vec3& m = (*solid.normal)[f];
       const Real s = dot(m, dot(tau, m));
-      force[P] += (1 / mesh_.V[P]) * (a_f * dot(tau, S) + ((alpha[P] - a_f) * s) * S);
+      force[P] += (1 / mesh_.V[P]) * (a_f * traction(tau, S, mirror) + ((alpha[P] - a_f) * s) * S);
       continue;
     }
     const Index N = mesh_.neighbour[f];

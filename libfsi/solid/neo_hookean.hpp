@@ -9,11 +9,12 @@ namespace fsi::solid {
 
 /// What the law makes a stress of.
 struct Strained {
-  const CellField<SymTensor>& B;     ///< on the band's cells, zero elsewhere; owned and halo
-  const CellField<Real>& alpha;      ///< owned and halo
-  const FaceField<Real>* alpha_f{};  ///< part of solid at the band's faces; B is then known around
-                                     ///< the solid as well. None: from alpha B of the cells
-  const FaceField<Vec3>* normal{};   ///< of the interface there, zero without one; with alpha_f
+  const CellField<SymTensor>& B;      ///< on the band's cells, zero elsewhere; owned and halo
+  const CellField<Real>& alpha;       ///< owned and halo
+  const FaceField<Real>* alpha_f{};   ///< part of solid at the band's faces; B is then known around
+                                      ///< the solid as well. None: from alpha B of the cells
+  const FaceField<Vec3>* normal{};    ///< of the interface there, zero without one; with alpha_f
+  const std::vector<char>* mirror{};  ///< [n_boundary] 1 on planes of symmetry, which bear no shear
 };
 
 /// Force of the elastic stress, and its counterpart in the balanced face flux.

@@ -1,6 +1,10 @@
 #include "libfsi/solver/body.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
 
 namespace fsi {
 namespace {
@@ -14,7 +18,7 @@ Kinematics make(const Mesh& mesh, KinematicsKind kind) {
 }  // namespace
 
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& shape, Real G,
-           KinematicsKind kind)
+           KinematicsKind kind, const std::vector<Patch>& mirrors)
     : mesh(mesh_),
       weights(weights_),
       alpha(mesh),
@@ -32,7 +36,11 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       law(mesh, weights, G),
       stiffness(mesh),
       grad(mesh),
-      filled(vof::fill(alpha, mesh, shape)) {
+      filled(vof::fill(alpha, mesh, shape, mirrors)),
+      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+  for (const Patch& patch : mirrors)
+    for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
+  specks.resize(static_cast<std::size_t>(mesh.n_owned));
   if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh))
     sided.emplace(mesh), reach.emplace(mesh);
   alpha_mid.assign(alpha);
@@ -84,10 +92,38 @@ void Body::set_touched(std::span<const Index> cells, std::span<const char> open)
     }
 }
 
+bool Body::count_out() {
+  constexpr Real speck = 0.01, rest = 1e-3;
+  Sum out;
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) out.add(advect_scratch.solid[f]);
+  volume_out += out.total();
+  if (volume_out <= 1e-12 * filled.volume || gone != 0) return false;
+  Sum left, taken;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real most = alpha[c];
+    for (const Index n : mesh.cell_neighbours[c]) most = std::max(most, alpha[n]);
+    const bool out_of_it = alpha[c] > 0 && most < speck;
+    specks[c] = out_of_it ? 1 : 0;
+    (out_of_it ? taken : left).add(mesh.V[c] * alpha[c]);
+  }
+  std::array<Real, 2> total{};
+  Sum::totals(total, std::array{left, taken});
+  const bool all = total[0] < rest * filled.volume;
+  if (!all && total[1] == 0) return false;
+  volume_out += total[1] + (all ? total[0] : 0);
+  gone = all ? 1 : 0;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (all || specks[c] != 0) alpha[c] = 0;
+  mesh.halo.update(alpha);
+  return true;
+}
+
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
   if (strained_by_flux()) snapshot.add("alpha_mid", alpha_mid);
   snapshot.add("solid_t", &t);
+  snapshot.add("solid_volume_out", &volume_out);
+  snapshot.add("solid_gone", &gone);
   snapshot.add("solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);

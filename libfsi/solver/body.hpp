@@ -29,9 +29,9 @@ enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map }
 
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
-  /// Collective. Fills the undeformed shape.
+  /// Collective. Fills the undeformed shape; mirrors: planes of symmetry, which may cut it.
   Body(const Mesh& mesh, const FaceWeights& weights, const shapes::Shape& shape, Real G,
-       KinematicsKind kind);
+       KinematicsKind kind, const std::vector<Patch>& mirrors = {});
 
   /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
   /// a reference map, which B alone does not tell.
@@ -45,6 +45,11 @@ struct Body {
   void list(io::Snapshot& snapshot);
   /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
   void weigh();
+  /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
+  /// out specks, cells with less than a hundredth of solid in themselves and all around them, and
+  /// the rest where that is less than a thousandth of the body; both count as having left. Returns
+  /// whether alpha was changed.
+  bool count_out();
   /// Sets `touched` on the boundary faces of the listed owned cells, as the solid stands now. open:
   /// 1 on faces of openings, which count as not touched.
   void set_touched(std::span<const Index> cells, std::span<const char> open);
@@ -109,6 +114,10 @@ struct Body {
   vof::Filled filled;                         ///< volume and its error at the start
   std::vector<Index> last_cells;              ///< where B was set
   vof::AdvectReport advected;                 ///< of the last step
+  std::vector<char> mirror;                   ///< [n_boundary] 1 on planes of symmetry
+  std::vector<char> specks;                   ///< [n_owned] scratch
+  Real volume_out = 0;                        ///< what left the mesh or was taken out after it
+  std::int64_t gone = 0;                      ///< 1: nothing is left
 };
 
 }  // namespace fsi

@@ -89,6 +89,8 @@ OutputSetup read_output(Options& options, const std::string& driver) {
        .min = 0});
   output.restart =
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
+  output.end_when_empty =
+      options.flag("end_when_empty", false, "end the run once the solid has left the mesh");
   output.wall_seconds_max = options.real(
       "max_wall_time", 0,
       {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});
@@ -129,7 +131,7 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
 std::string simulated(const Options& options) {
   constexpr std::array not_simulated{"mesh",    "petscpartitioner", "time_",
                                      "output_", "sample_",          "check",
-                                     "restart", "max_wall_time"};
+                                     "restart", "max_wall_time",    "end_when_empty"};
   std::string text;
   for (const auto& [name, value] : options.values()) {
     const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };

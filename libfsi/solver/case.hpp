@@ -25,7 +25,8 @@ struct OutputSetup {
   Real field_interval = 0, sample_interval = 0,
        checkpoint_interval = 0;  ///< simulated time; 0: never
   bool restart = false;
-  Real wall_seconds_max = 0;  ///< 0: no limit
+  bool end_when_empty = false;  ///< once the solid has left the mesh
+  Real wall_seconds_max = 0;    ///< 0: no limit
 };
 
 /// The undeformed solid; no shape: no solid.

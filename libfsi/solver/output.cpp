@@ -152,6 +152,8 @@ bool Output::go_on() {
   const Real wall = case_.output.wall_seconds_max;
   if (signal == Signal::checkpoint) write_checkpoint();
   interrupted_ = signal == Signal::end || (wall > 0 && global_max(watch_.seconds()) > wall);
+  const bool empty = solver_.body() && solver_.body()->gone != 0;
+  if (empty && case_.output.end_when_empty) return false;
   return !interrupted_ && solver_.report().failure.empty();
 }
 
@@ -179,6 +181,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
+  tell_of_leaving();
   const bool every_step = case_.output.sample_interval <= 0;
   if (every_step || sample_.due(s.t)) write_row(limit, dt);
   if (field_.due(s.t)) write_fields();
@@ -190,12 +193,29 @@ void Output::write_due(const Limit& asked, Real dt) {
   progress_at_ = watch_.seconds();
 }
 
+/// A word when the solid begins to leave the mesh, and one when nothing of it is left.
+void Output::tell_of_leaving() {
+  const std::optional<Body>& body = solver_.body();
+  if (!body || body->volume_out <= 0) return;
+  const bool begins = !leaving_, ends = body->gone != 0 && !left_;
+  leaving_ = true, left_ = body->gone != 0;
+  if (rank() != 0) return;
+  if (begins)
+    std::fprintf(
+        stderr,
+        "fsi: notice: solid leaves the mesh from t = %g on: column volume_out of solid.csv\n",
+        solver_.state().t);
+  if (ends)
+    std::fprintf(stderr, "fsi: notice: the last of the solid left the mesh at t = %g\n",
+                 solver_.state().t);
+}
+
 void Output::write_row(const Limit& limit, Real dt) {
   const std::int64_t step = solver_.state().step;
   const Real now = watch_.seconds();
   const auto steps = static_cast<Real>(std::max<std::int64_t>(1, step - row_step_));
   flow_->row(values(flow_row(solver_, limit, dt, (now - rows_at_) / steps)));
-  if (solver_.body()) solid_->row(values(record_.row(solver_)));
+  if (solver_.body() && solver_.body()->gone == 0) solid_->row(values(record_.row(solver_)));
   rows_at_ = now;
   row_step_ = step;
 }

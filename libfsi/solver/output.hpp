@@ -56,6 +56,7 @@ class Output {
   void open();
   void open_tables();
   void write_due(const Limit& asked, Real dt);
+  void tell_of_leaving();
   void write_row(const Limit& limit, Real dt);
   Limit count(const Limit& limit, Real dt);
   void write_fields();
@@ -79,6 +80,7 @@ class Output {
   std::map<std::string, Real> limits_;  // steps by what set their length
   std::string message_;                 // why the run ended, where no step failed
   bool interrupted_ = false, finished_ = false;
+  bool leaving_ = false, left_ = false;  // what was said of the solid
 };
 
 }  // namespace fsi

@@ -210,11 +210,12 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   axis_ = o.n;
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume;
-  drift_ = m.volume / volume_0_ - 1;
+  drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
   std::vector<Entry> row{{"t", solver.state().t}};
   add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);
   row.push_back({"volume", m.volume});
+  row.push_back({"volume_out", body.volume_out});
   add(row, {"nx", "ny", "nz"}, o.n);
   row.push_back({"angle", o.angle});
   row.push_back({"det_B_min", h.det_min});

@@ -55,6 +55,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       loads_(mesh, projection_, openings_, physics.rho),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
+  for (const Condition& condition : conditions_)
+    leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
   // The transposed viscous term is explicit: backward Euler where it is large.
   if (physics.mu_s > 2 * physics.mu_f || physics.mu_f > 2 * physics.mu_s) momentum_.theta = 1;
@@ -89,15 +91,19 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
 }
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
-  body_.emplace(mesh_, weights_, shape, physics_.G, kind);
+  std::vector<Patch> mirrors;
+  for (std::size_t i = 0; i < conditions_.size(); ++i)
+    if (std::holds_alternative<Slip>(conditions_[i])) mirrors.push_back(mesh_.patches[i]);
+  body_.emplace(mesh_, weights_, shape, physics_.G, kind, mirrors);
   body_->t = state_.t;
   if (physics_.solid_acceleration != Vec3{})
     body_force_.emplace(mesh_, weights_, physics_.rho * physics_.solid_acceleration);
   require(body_->filled.volume > 0,
           "the solid is empty: its shape lies outside the mesh or is smaller than a cell");
-  require(body_->filled.clearance > 0, "the solid sticks out of the mesh by " +
-                                           std::to_string(-body_->filled.clearance) +
-                                           ": move it or make it smaller");
+  const Real touching = 1e-9 * std::pow(mesh_.total_volume, 1.0 / mesh_.dim);
+  require(body_->filled.clearance > -touching, "the solid sticks out of the mesh by " +
+                                                   std::to_string(-body_->filled.clearance) +
+                                                   ": move it or make it smaller");
   if (mu_varies()) {
     momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
@@ -179,6 +185,7 @@ void Solver::advance_interface(Real t) {
   for (int i = 0; i < parts; ++i) {
     body_->advected.add(vof::advect(body_->alpha, body_->interface, state_.phi, state_.u,
                                     solid_dt_ / parts, mesh_, body_->advect_scratch));
+    if (leaves_) body_->count_out();
     vof::reconstruct(body_->interface, body_->alpha, mesh_, body_->reconstruct_scratch);
   }
   for (Index c = 0; c < mesh_.n_cells; ++c)
@@ -281,7 +288,8 @@ void Solver::set_elastic_force() {
   force_.fill({});
   balance_.fill(0);
   const solid::Strained strained{body_->B, body_->alpha,
-                                 body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f};
+                                 body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f,
+                                 &body_->mirror};
   body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
                    body_->grad);
   if (two_viscosities_) {

@@ -221,6 +221,7 @@ class Solver {
   std::optional<Body> body_;
   std::optional<solid::BodyForce> body_force_;     // where there is one
   std::optional<TwoViscosities> two_viscosities_;  // where they differ
+  bool leaves_ = false;                            // whether a solid may leave the mesh
   std::optional<Backup> backup_;
   Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step

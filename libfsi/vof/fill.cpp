@@ -220,9 +220,13 @@ Real radius(const Mesh& mesh, Index c) {
   return std::sqrt(square);
 }
 
-Real clearance(const Mesh& mesh, Images& distance) {
+Real clearance(const Mesh& mesh, Images& distance, const std::vector<Patch>& mirrors) {
   Real least = shapes::infinity;
+  const auto mirrored = [&](Index f) {
+    return std::ranges::any_of(mirrors, [&](const Patch& p) { return f >= p.begin && f < p.end; });
+  };
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    if (mirrored(f)) continue;
     least = std::min(least, distance.select(mesh.Cf[f], 0));
     for (const Index p : mesh.face_points[f]) {
       least = std::min(least, distance.select(mesh.points[p], 0));
@@ -234,7 +238,7 @@ Real clearance(const Mesh& mesh, Images& distance) {
 }  // namespace
 
 Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
-            const FillAccuracy& accuracy) {
+            const std::vector<Patch>& mirrors, const FillAccuracy& accuracy) {
   Images distance(mesh, shape);
   std::array<Sum, 4> sums;  // volume; change: of smooth parts, its square, of bent parts
   for (Index c = 0; c < mesh.n_owned; ++c) {
@@ -253,7 +257,7 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
   std::array<Real, 4> totals{};
   Sum::totals(totals, sums);
   const Real error = std::abs(totals[1]) + std::sqrt(totals[2]) + totals[3];
-  return {totals[0], error, clearance(mesh, distance)};
+  return {totals[0], error, clearance(mesh, distance, mirrors)};
 }
 
 }  // namespace fsi::vof

@@ -1,6 +1,8 @@
 #pragma once
 // From a shape to volume fractions: the exact initial state of the interface.
 
+#include <vector>
+
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/shapes/shapes.hpp"
@@ -23,9 +25,9 @@ struct Filled {
   /// Of `volume`: what the last division changed, |sum over cells| + (sum of squares)^(1/2)
   /// of smooth parts, sum of sizes at sharp edges.
   Real estimated_error = 0;
-  /// Least signed distance of the shape at corners and centres of boundary faces: how far the solid
-  /// is from the boundary; negative where it sticks out of the mesh and `volume` misses a part of
-  /// it.
+  /// Least signed distance of the shape at corners and centres of boundary faces but those of
+  /// `mirrors`: how far the solid is from the boundary; negative where it sticks out of the mesh
+  /// and `volume` misses a part of it.
   Real clearance = 0;
 };
 
@@ -36,8 +38,9 @@ struct Filled {
 /// the last simplices for a smooth shape (measured), second order along edges of a cylinder or box.
 /// Torus, 32 cells per unit length, r = 0.1: 3e-8 of its volume. A shape that leaves the mesh
 /// through a periodic face enters at the other: it is evaluated at all `translation` images. Needs
-/// cells that are star-shaped about C. On return owned cells and halo are set.
+/// cells that are star-shaped about C. mirrors: patches that may cut the solid, planes of symmetry.
+/// On return owned cells and halo are set.
 Filled fill(CellField<Real>& alpha, const Mesh& mesh, const shapes::Shape& shape,
-            const FillAccuracy& accuracy = {});
+            const std::vector<Patch>& mirrors = {}, const FillAccuracy& accuracy = {});
 
 }  // namespace fsi::vof

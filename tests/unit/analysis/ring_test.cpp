@@ -85,7 +85,7 @@ TEST(Ring, TorusOfVolumeFractions) {
   CellField<Real> alpha(mesh);
   const Real psi = pi / 4;
   vof::fill(alpha, mesh,
-            shapes::translate(shapes::rotate(shapes::torus(0.3, 0.1), {0, 0, 1}, psi), centre),
+            shapes::translate(shapes::rotate(shapes::torus(0.3, 0.1), {0, 0, 1}, psi), centre), {},
             {1e-4, 0, 4});
   const Surface s = isosurface(alpha, mesh, centre);
   const Ring r = ring(s, centre, ring_frame({std::cos(psi), std::sin(psi), 0}));

@@ -18,7 +18,7 @@ const Vec3 centre_2d{0.513, 0.497, 0};
 
 Surface surface_of(const Mesh& mesh, const Shape& shape, const Vec3& about) {
   CellField<Real> alpha(mesh);
-  vof::fill(alpha, mesh, shape, {1e-4, 0, 4});
+  vof::fill(alpha, mesh, shape, {}, {1e-4, 0, 4});
   return isosurface(alpha, mesh, about);
 }
 

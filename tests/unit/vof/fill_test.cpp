@@ -21,7 +21,7 @@ struct Result {
 /// Relative to the exact volume; checks the bounds and the sum on the way.
 Result filled(const Mesh& mesh, const Shape& shape, Real exact, const FillAccuracy& accuracy = {}) {
   CellField<Real> alpha(mesh, -1);
-  const Filled result = fill(alpha, mesh, shape, accuracy);
+  const Filled result = fill(alpha, mesh, shape, {}, accuracy);
   Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c) sum.add(alpha[c] * mesh.V[c]);
   EXPECT_EQ(sum.total(), result.volume);

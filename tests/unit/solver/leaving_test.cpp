@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+Real volume(const Solver& solver) {
+  Sum sum;
+  for (Index c = 0; c < solver.mesh().n_owned; ++c)
+    sum.add(solver.mesh().V[c] * solver.body()->alpha[c]);
+  return sum.total();
+}
+
+// A disc is carried out of a channel: what is in it and what left add up, and in the end nothing
+// is in it.
+TEST(Leaving, WhatLeftIsCountedAndNothingStaysBehind) {
+  for (const bool triangles : {false, true})
+    for (const auto kind : {KinematicsKind::log_conformation, KinematicsKind::left_cauchy_green,
+                            KinematicsKind::reference_map}) {
+      const Mesh mesh =
+          test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}, .simplex = triangles});
+      Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 1},
+                    {.conditions = {{"left", FixedVelocity{[](const Vec3&, Real) {
+                                       return Vec3{1, 0, 0};
+                                     }}},
+                                    {"right", Opening{0}},
+                                    {"bottom", Slip{}},
+                                    {"top", Slip{}}}});
+      solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+      solver.put_solid(shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}), kind);
+      const Real start = volume(solver);
+      int steps = 0;
+      for (; steps < 400 && solver.body()->gone == 0; ++steps) {
+        ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
+        ASSERT_NEAR(volume(solver) + solver.body()->volume_out, start, 1e-9 * start);
+      }
+      EXPECT_EQ(solver.body()->gone, 1);
+      EXPECT_EQ(volume(solver), 0);
+      // behind the outlet at 0.5 + radius; what is left near the walls is slower
+      EXPECT_GT(steps, 70);
+      EXPECT_LT(steps, 120);
+      for (int i = 0; i < 5; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
+    }
+}
+
+// Half a disc on a plane of symmetry is half of a disc.
+TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
+  const auto run = [](Index n, Real height, Real middle, bool half) {
+    const Mesh mesh = test::read_box({.n = {2 * n, half ? n / 2 : n, 0}, .length = {2, height, 1}});
+    const Wall lid{{1, 0, 0}}, other{{1, 0, 0}};
+    Conditions conditions{{"left", Opening{0}}, {"right", Opening{0}}, {"top", lid}};
+    conditions["bottom"] = half ? Condition(Slip{}) : Condition(other);
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 2}, {.conditions = conditions});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    solver.put_solid(shapes::translate(shapes::sphere(0.3), {0.7, middle, 0}));
+    for (int i = 0; i < 100; ++i) solver.step(0.01);
+    std::array<Sum, 3> sums;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const Real V = mesh.V[c] * solver.body()->alpha[c];
+      sums[0].add(V), sums[1].add(V * mesh.C[c].x), sums[2].add(V * solver.body()->B_of(c).xx);
+    }
+    return std::array{sums[1].total() / sums[0].total(), sums[2].total() / sums[0].total()};
+  };
+  const auto whole = run(32, 1, 0.5, false), half = run(32, 0.5, 0, true);
+  EXPECT_NEAR(half[0], whole[0], 1e-3);
+  EXPECT_NEAR(half[1], whole[1], 1e-3);
+}
+
+TEST(Mirror, ASolidMayTouchAWallButNotStickOut) {
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .length = {1, 1, 1}});
+  Conditions walls{{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}};
+  Solver solver(mesh, {.G = 1}, {.conditions = walls});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  EXPECT_NO_THROW(solver.put_solid(shapes::translate(shapes::sphere(0.25), {0.5, 0.25, 0})));
+  Solver other(mesh, {.G = 1}, {.conditions = walls});
+  other.start([](const Vec3&) { return Vec3{}; });
+  EXPECT_THROW(other.put_solid(shapes::translate(shapes::sphere(0.25), {0.5, 0.24, 0})), Error);
+}
+
+}  // namespace
+}  // namespace fsi
