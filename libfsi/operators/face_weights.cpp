@@ -22,7 +22,7 @@ FaceWeights::FaceWeights(const Mesh& mesh)
       skew[f] = r - lambda[f] * d;
       needed = needed || norm(from_midpoint(f, mesh)) > negligible * norm(d);
     } else {
-      needed = needed || mesh.simplex(mesh.owner[f]);
+      needed = needed || !mesh.brick(mesh.owner[f]);
     }
     if (!needed) continue;
     place[f] = static_cast<Index>(irregular.size());

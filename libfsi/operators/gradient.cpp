@@ -33,7 +33,7 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
   std::vector<Index> at(static_cast<std::size_t>(mesh.n_owned), -1);
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f];
-    if (stencil.given[f - mesh.n_internal] != 0 || mesh.simplex(P)) continue;
+    if (stencil.given[f - mesh.n_internal] != 0 || !mesh.brick(P)) continue;
     if (at[P] < 0) {
       at[P] = static_cast<Index>(stencil.closed.size());
       stencil.closed_cells.push_back(P), stencil.closed.push_back(unit);
@@ -118,7 +118,7 @@ void pressure_gradient(CellField<Vec3>& grad, const std::vector<Vec3>& g_f,
       const Vec3 rest = dot(g_f[i], weights.skew[f]) * mesh.Sf[f];
       grad[P] += rest;
       grad[mesh.neighbour[f]] -= rest;
-    } else if (stencil.given[f - mesh.n_internal] == 0 && mesh.simplex(P)) {
+    } else if (stencil.given[f - mesh.n_internal] == 0 && !mesh.brick(P)) {
       grad[P] += dot(g_f[i], mesh.d[f]) * mesh.Sf[f];
     }
   }

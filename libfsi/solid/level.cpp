@@ -41,7 +41,7 @@ void Level::add_irregular(const GradientStencil& stencil, const Band& band) {
       const Vec3 rest = dot(at_faces_[i], weights.skew[f]) * mesh_.Sf[f];
       whole_[P] += (1 / mesh_.V[P]) * rest;
       whole_[N] -= (1 / mesh_.V[N]) * rest;
-    } else if (stencil.given[f - mesh_.n_internal] == 0 && mesh_.simplex(P)) {
+    } else if (stencil.given[f - mesh_.n_internal] == 0 && !mesh_.brick(P)) {
       whole_[P] += (dot(at_faces_[i], mesh_.d[f]) / mesh_.V[P]) * mesh_.Sf[f];
     }
   }
