@@ -1,8 +1,9 @@
-// How long a step may be: what Solver says of the fluxes, the walls and the solid.
+// What Solver tells of its state: how long a step may be, what stands at openings, gradients.
 
 #include <algorithm>
 #include <limits>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
 
@@ -49,6 +50,18 @@ Real Solver::elastic_dt() const {
 Real Solver::strain_dt(Real strain) const {
   const Real rate = global_max(body_ ? body_->strain.rate : 0);
   return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
+}
+
+Real Solver::opening_pressure(const std::string& patch) const {
+  for (const flow::Openings::One& opening : openings_.all())
+    if (opening.patch.name == patch) return opening.pressure;
+  throw Error(Kind::input, "patch \"" + patch + "\" is no opening");
+}
+
+const CellField<Tensor>& Solver::velocity_gradient() {
+  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
+  gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
+  return L_;
 }
 
 }  // namespace fsi

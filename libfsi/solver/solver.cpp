@@ -390,16 +390,4 @@ void Solver::check() {
     throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
 }
 
-Real Solver::opening_pressure(const std::string& patch) const {
-  for (const flow::Openings::One& opening : openings_.all())
-    if (opening.patch.name == patch) return opening.pressure;
-  throw Error(Kind::input, "patch \"" + patch + "\" is no opening");
-}
-
-const CellField<Tensor>& Solver::velocity_gradient() {
-  set_boundary_velocity(u_b_, state_.u, conditions_, state_.t, mesh_);
-  gradient(L_, state_.u, u_b_, u_stencil_, mesh_);
-  return L_;
-}
-
 }  // namespace fsi
