@@ -10,6 +10,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/libfsi DESTINATION ${CMAKE_INSTALL_INCLU
 if(FSI_DRIVERS)
   list(TRANSFORM FSI_DRIVERS PREPEND fsi- OUTPUT_VARIABLE programs)
   install(TARGETS ${programs})
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/drivers/mpiexec.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME fsi-mpiexec)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/fsiConfig.cmake.in
