@@ -7,6 +7,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/run.hpp"
 #include "libfsi/core/signals.hpp"
+#include "libfsi/core/version.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/io/manifest.hpp"

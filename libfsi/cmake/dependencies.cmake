@@ -1,6 +1,6 @@
-# PETSc (with hypre, MPI and libyaml), METIS, HDF5: nothing else at run time.
-# The installed fsiConfig.cmake reads this file too.
-find_package(MPI REQUIRED COMPONENTS C CXX)
+# PETSc (with hypre, MPI and libyaml) and METIS, as who links the library needs them: the installed
+# fsiConfig.cmake reads this file too, in projects that may not know C. HDF5 is in build.cmake.
+find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
 
 # Debian keeps PETSc.pc beside the library, out of pkg-config's own path.
@@ -13,9 +13,6 @@ if(NOT TARGET PkgConfig::PETSC)
   # The -D_FORTIFY_SOURCE of the packager's flags is not ours to pass on.
   set_property(TARGET PkgConfig::PETSC PROPERTY INTERFACE_COMPILE_OPTIONS "")
 endif()
-
-set(HDF5_PREFER_PARALLEL ON)
-find_package(HDF5 REQUIRED COMPONENTS C)
 
 find_library(METIS_LIBRARY metis REQUIRED)
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)

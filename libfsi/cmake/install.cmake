@@ -1,4 +1,4 @@
-# fsi::fsi for find_package(fsi) from outside.
+# fsi::fsi for find_package(fsi) from outside, fsi.pc for pkg-config, drivers, meshes and examples.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,6 +10,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/libfsi DESTINATION ${CMAKE_INSTALL_INCLU
 if(FSI_DRIVERS)
   list(TRANSFORM FSI_DRIVERS PREPEND fsi- OUTPUT_VARIABLE programs)
   install(TARGETS ${programs})
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/drivers/mpiexec.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME fsi-mpiexec)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/fsiConfig.cmake.in
@@ -20,3 +21,24 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/fsiConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/fsiConfig.cmake ${PROJECT_BINARY_DIR}/fsiConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
         DESTINATION ${config_folder})
+
+# pkg-config: the files of PETSc, MPI, HDF5 and METIS by their paths, the library by its place beside fsi.pc.
+set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH pc_prefix /prefix/${pc_folder} /prefix)
+set(pc_includes ${PETSC_INCLUDE_DIRS} ${MPI_CXX_INCLUDE_DIRS})
+list(REMOVE_DUPLICATES pc_includes)
+list(TRANSFORM pc_includes PREPEND -I)
+list(JOIN pc_includes " " pc_includes)
+set(pc_libraries ${PETSC_LINK_LIBRARIES} ${HDF5_C_LIBRARIES} ${METIS_LIBRARY} ${MPI_CXX_LIBRARIES})
+list(REMOVE_DUPLICATES pc_libraries)
+list(TRANSFORM pc_libraries REPLACE "^([^/-].*)$" "-l\\1")
+list(JOIN pc_libraries " " pc_libraries)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/fsi.pc.in ${PROJECT_BINARY_DIR}/fsi.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/fsi.pc DESTINATION ${pc_folder})
+
+# The examples without those that measure the library from its source tree.
+set(data_folder ${CMAKE_INSTALL_DATADIR}/fsi)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/meshes DESTINATION ${data_folder} FILES_MATCHING PATTERN *.geo)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data_folder} USE_SOURCE_PERMISSIONS
+        PATTERN __pycache__ EXCLUDE PATTERN speed_error EXCLUDE PATTERN stability EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

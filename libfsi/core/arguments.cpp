@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <set>
-#include <sstream>
 
 namespace fsi {
 namespace {
@@ -24,6 +23,8 @@ Arguments read_arguments(int argc, char** argv) {
     const std::string word = argv[i];
     if (word == "-help" || word == "--help" || word == "-h") {
       result.help = true;
+    } else if (word == "-version" || word == "--version") {
+      result.version = true;
     } else if (i == 1 && is_yaml(word)) {
       result.file = word;
       result.words.insert(result.words.end(), {"-options_file_yaml", word});
@@ -47,38 +48,6 @@ std::string fault_of(const Arguments& arguments) {
              (i > 1 ? "; it follows \"" + arguments.words[i - 1] + "\" (a list is one word: a,b,c)"
                     : "; an options file ends in .yaml or .yml");
     value_may_follow = option;
-  }
-  return "";
-}
-
-std::string repeated_key(const std::string& yaml) {
-  struct Block {
-    std::size_t indent;
-    std::string name;
-  };
-  std::vector<Block> open;
-  std::set<std::string> seen;
-  std::istringstream stream(yaml);
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t indent = line.find_first_not_of(' ');
-    if (indent == std::string::npos) continue;
-    std::size_t end = indent;
-    while (end < line.size() &&
-           (std::isalnum(static_cast<unsigned char>(line[end])) != 0 || line[end] == '_'))
-      ++end;
-    const bool key =
-        end > indent && end < line.size() && line[end] == ':' &&
-        (end + 1 == line.size() || std::isspace(static_cast<unsigned char>(line[end + 1])));
-    if (!key) continue;
-    while (!open.empty() && open.back().indent >= indent) open.pop_back();
-    const std::string name =
-        (open.empty() ? "" : open.back().name + "_") + line.substr(indent, end - indent);
-    const std::size_t value = line.find_first_not_of(" \t\r", end + 1);
-    if (value == std::string::npos || line[value] == '#') {
-      open.push_back({indent, name});  // a block begins
-    } else if (!seen.insert(name).second) {
-      return name;
-    }
   }
   return "";
 }

@@ -9,9 +9,10 @@ namespace fsi {
 /// A command line as PETSc is to get it.
 struct Arguments {
   std::vector<std::string>
-      words;          ///< the program first; an options file as -options_file_yaml FILE
-  std::string file;   ///< the options file; "" where there is none
-  bool help = false;  ///< -help was among the words; it is no longer
+      words;             ///< the program first; an options file as -options_file_yaml FILE
+  std::string file;      ///< the options file; "" where there is none
+  bool help = false;     ///< -help was among the words; it is no longer
+  bool version = false;  ///< -version was, likewise
 };
 
 /// A first argument that ends in .yaml or .yml is the options file.
@@ -21,8 +22,8 @@ Arguments read_arguments(int argc, char** argv);
 /// nothing is.
 std::string fault_of(const Arguments& arguments);
 
-/// The first option that an options file gives twice (as keys in blocks; nested keys join with _);
-/// "" where none is.
+/// The first option that an options file gives twice, in blocks or in braces (nested keys join
+/// with _); "" where none is.
 std::string repeated_key(const std::string& yaml);
 
 }  // namespace fsi

@@ -18,6 +18,14 @@ bool Every::due(Real t) {
   return true;
 }
 
+std::vector<Real> Every::reached(Real t) {
+  std::vector<Real> times;
+  if (interval_ <= 0) return times;
+  for (const std::int64_t end = index(t); done_ < end;)
+    times.push_back(static_cast<Real>(++done_) * interval_);
+  return times;
+}
+
 Real Every::next(Real t) const {
   return interval_ <= 0 ? std::numeric_limits<Real>::max()
                         : static_cast<Real>(index(t) + 1) * interval_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "libfsi/core/types.hpp"
 
@@ -25,6 +26,10 @@ class Every {
   explicit Every(Real interval) : interval_(interval) {}
   /// Whether a multiple was reached since the last time this was true. At t = 0: true.
   bool due(Real t);
+  /// The multiples reached since the last time this or due() was asked.
+  std::vector<Real> reached(Real t);
+  /// The last multiple up to t.
+  Real last(Real t) const { return static_cast<Real>(index(t)) * interval_; }
   /// Time of the next event after t.
   Real next(Real t) const;
   /// Whether t is a multiple.

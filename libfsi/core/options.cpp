@@ -3,7 +3,9 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,21 +16,22 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/core/version.hpp"
 
 namespace fsi {
 namespace {
 
+/// The shortest text that reads back to the same value; without an exponent where it is of an
+/// everyday size.
 std::string number(Real value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  if (std::strtod(text, nullptr) == value) {
-    for (int digits = 1; digits < 17; ++digits) {
-      char shorter[32];
-      std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
-      if (std::strtod(shorter, nullptr) == value) return shorter;
-    }
-  }
-  return text;
+  const Real size = std::abs(value);
+  const bool everyday = size == 0 || (size >= 1e-4 && size < 1e16);
+  std::array<char, 64> text{};
+  const auto [end, error] =
+      std::to_chars(text.begin(), text.end(), value,
+                    everyday ? std::chars_format::fixed : std::chars_format::scientific);
+  FSI_ASSERT(error == std::errc{});
+  return {text.data(), end};
 }
 
 /// The raw text of an option; nothing when it is not given.
@@ -202,7 +205,8 @@ Options::Options(std::string program, std::string purpose) : program_(std::move(
         PetscPrintf(comm(),
                     "%s: %s\n\n  %s [CASE.yaml] [-OPTION VALUE ...]\n\n"
                     "Keys of the file join with _; the command line wins. Solvers take PETSc's "
-                    "options:\n-p_ksp_monitor, -u_ksp_rtol 1e-9, -log_view ...\n\n",
+                    "options:\n-p_ksp_monitor, -u_ksp_rtol 1e-9, -log_view ...\n"
+                    "-version tells version and commit.\n\n",
                     program_.c_str(), purpose.c_str(), program_.c_str()));
 }
 
@@ -327,6 +331,7 @@ std::map<std::string, std::string> Options::values() const {
 
 std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
+  text += "# libfsi " + version() + ", commit " + commit() + "\n";
   for (const Entry& entry : entries_)
     if (!entry.value.empty()) text += entry.name + ": " + quoted(entry.value) + "\n";
   bool headed = false;

@@ -15,6 +15,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
+#include "libfsi/core/version.hpp"
 
 namespace fsi {
 namespace {
@@ -109,6 +110,16 @@ void start_petsc(Arguments& arguments) {
   if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));
 }
 
+/// What -version tells: the program and what it is built with.
+void print_version(const char* program) {
+  int mine = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &mine);
+  if (mine != 0) return;
+  std::printf("%s %s, commit %s; PETSc %d.%d.%d\n",
+              std::filesystem::path(program).filename().c_str(), version().c_str(),
+              commit().c_str(), PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
+}
+
 int end_petsc(int code) {
   PetscBool begun = PETSC_FALSE;
   PetscErrorCode ended = PetscInitialized(&begun);
@@ -128,7 +139,10 @@ int run(int argc, char** argv, const std::function<Ending()>& body) {
   try {
     start_petsc(arguments);
     watch_signals();
-    code = static_cast<int>(body());
+    if (arguments.version)
+      print_version(argv[0]);
+    else
+      code = static_cast<int>(body());
   } catch (const Error& error) {
     code = failed(rim, error.kind(), error.what());
   } catch (const std::bad_alloc&) {

@@ -9,9 +9,9 @@ namespace fsi {
 enum class Ending : int { complete = 0, interrupted = 5 };
 
 /// Initialises MPI and PETSc (a first argument ending in .yaml or .yml is the options file), calls
-/// body, finalises. Returns the exit code of the program: the Ending, or the Kind of the Error
-/// thrown, whose sentence it prints once. An exception on one rank ends all ranks: none is left
-/// waiting.
+/// body, finalises; with -version prints program, version and commit instead. Returns the exit code
+/// of the program: the Ending, or the Kind of the Error thrown, whose sentence it prints once. An
+/// exception on one rank ends all ranks: none is left waiting.
 int run(int argc, char** argv, const std::function<Ending()>& body);
 
 }  // namespace fsi

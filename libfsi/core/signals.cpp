@@ -24,6 +24,7 @@ void watch_signals() {
   std::signal(SIGUSR1, remember);
   std::signal(SIGUSR2, remember);
   std::signal(SIGTERM, remember);
+  std::signal(SIGINT, remember);
 }
 
 Signal pending_signal() {

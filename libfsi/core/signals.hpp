@@ -7,7 +7,7 @@ namespace fsi {
 enum class Signal : int {
   none = 0,
   checkpoint = 1,  ///< SIGUSR1: write a checkpoint and go on
-  end = 2,         ///< SIGUSR2 or SIGTERM: finish the step, write a checkpoint, end as interrupted
+  end = 2,  ///< SIGUSR2, SIGTERM, SIGINT: finish the step, write a checkpoint, end as interrupted
 };
 
 /// Installs the handlers.

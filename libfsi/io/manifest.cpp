@@ -56,6 +56,7 @@ void write_text(const std::string& file, const std::string& text) {
 std::string json(const Summary& s) {
   const Real work = static_cast<Real>(s.cells) * static_cast<Real>(s.steps - s.first_step);
   return "{\n  \"case\": " + quoted(s.case_name) + ",\n  \"status\": " + quoted(s.status) +
+         ",\n  \"version\": " + quoted(s.version) + ",\n  \"commit\": " + quoted(s.commit) +
          ",\n  \"message\": " + quoted(s.message) + ",\n  \"cells\": " + std::to_string(s.cells) +
          ",\n  \"ranks\": " + std::to_string(s.ranks) +
          ",\n  \"steps\": " + std::to_string(s.steps) + ",\n  \"t\": " + number(s.t) +

@@ -5,12 +5,14 @@
 #include <string>
 
 #include "libfsi/core/types.hpp"
+#include "libfsi/core/version.hpp"
 
 namespace fsi::io {
 
 /// The content of summary.json (see the documentation of the output files).
 struct Summary {
   std::string case_name, status = "failed", message;
+  std::string version = fsi::version(), commit = fsi::commit();
   GlobalIndex cells = 0;
   int ranks = 1;
   std::int64_t steps = 0, rejected_steps = 0;

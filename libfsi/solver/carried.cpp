@@ -7,6 +7,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
 #include "libfsi/io/manifest.hpp"
+#include "libfsi/solver/records.hpp"
 #include "libfsi/vof/fill.hpp"
 
 namespace fsi {
@@ -52,15 +53,15 @@ CarriedOutput::CarriedOutput(const Case& which, const Options& options, const Ca
       options_(options),
       carried_(carried),
       lock_(io::make_directory(which.output.directory)),
-      sample_(which.output.sample_interval),
+      samples_(which.output.sample_interval),
       field_(which.output.field_interval) {
   require(!which.output.restart && which.output.checkpoint_interval == 0,
           "options -restart and -checkpoint_interval: fsi-advect runs in one go");
   io::write_text(which.output.directory + "/run.yaml", options.yaml());
-  table_.emplace(which.output.directory + "/solid.csv",
-                 std::vector<std::string>{"t", "x", "y", "z", "volume", "drift", "alpha_min",
-                                          "alpha_max", "difference"});
-  write_row();
+  const Row first = row();
+  table_.emplace(which.output.directory + "/solid.csv", names(first.entries));
+  table_->row(values(first.entries));
+  samples_.hold({first});
   if (which.output.field_interval > 0) fields_.emplace(which.output.directory, carried.mesh());
   if (field_.due(0)) write_fields();
   io::write_text(summary_file(), summary("failed"));
@@ -86,12 +87,11 @@ void CarriedOutput::after_step() {
 
 void CarriedOutput::write_due() {
   if (carried_.steps() == 1) options_.check_unused();
-  const bool every_step = case_.output.sample_interval <= 0;
-  if (every_step || sample_.due(carried_.t())) write_row();
+  write_rows();
   if (field_.due(carried_.t())) write_fields();
 }
 
-void CarriedOutput::write_row() {
+Row CarriedOutput::row() {
   const Mesh& mesh = carried_.mesh();
   const auto alpha = carried_.alpha().owned();
   const analysis::Motion m = analysis::motion(tracker_, carried_.alpha(), carried_.u(), mesh);
@@ -100,9 +100,24 @@ void CarriedOutput::write_row() {
   const auto [least, most] = std::minmax_element(alpha.begin(), alpha.end());
   low_ = global_min(least == alpha.end() ? 0 : *least);
   high_ = global_max(most == alpha.end() ? 0 : *most);
-  table_->row(std::array{carried_.t(), m.centroid.x, m.centroid.y, m.centroid.z, m.volume, drift_,
-                         low_, high_, carried_.difference()});
-  row_at_ = carried_.t();
+  const Real t = carried_.t();
+  return {t,
+          t,
+          {{"t", t},
+           {"x", m.centroid.x},
+           {"y", m.centroid.y},
+           {"z", m.centroid.z},
+           {"volume", m.volume},
+           {"drift", drift_},
+           {"alpha_min", low_},
+           {"alpha_max", high_},
+           {"difference", carried_.difference()}}};
+}
+
+void CarriedOutput::write_rows() {
+  const Row now = row();
+  for (const Real t : samples_.due(carried_.t())) table_->row(samples_.row(0, now, t)), row_at_ = t;
+  samples_.hold({now});
 }
 
 void CarriedOutput::write_fields() {
@@ -125,7 +140,7 @@ std::string CarriedOutput::summary(const std::string& status, const std::string&
 }
 
 Ending CarriedOutput::finish() {
-  if (row_at_ < carried_.t()) write_row();
+  if (row_at_ < carried_.t() * (1 - 1e-12)) table_->row(values(row().entries));
   io::write_text(summary_file(), summary(interrupted_ ? "interrupted" : "complete"));
   const Real difference = carried_.difference();
   if (rank() == 0)

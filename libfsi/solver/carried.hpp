@@ -12,6 +12,7 @@
 #include "libfsi/io/file.hpp"
 #include "libfsi/io/table.hpp"
 #include "libfsi/solver/case.hpp"
+#include "libfsi/solver/samples.hpp"
 #include "libfsi/vof/motion.hpp"
 
 namespace fsi {
@@ -60,14 +61,13 @@ class CarriedOutput {
   CarriedOutput(const Case& which, const Options& options, const Carried& carried);
 
   bool go_on();
-  Real next_event() const {
-    return std::min(sample_.next(carried_.t()), field_.next(carried_.t()));
-  }
+  Real next_event() const { return field_.next(carried_.t()); }
   void after_step();
   Ending finish();
 
  private:
-  void write_row();
+  Row row();
+  void write_rows();
   void write_fields();
   void write_due();
   std::string summary_file() const { return case_.output.directory + "/summary.json"; }
@@ -77,7 +77,8 @@ class CarriedOutput {
   const Options& options_;
   const Carried& carried_;
   io::Lock lock_;
-  Every sample_, field_;
+  Samples samples_;
+  Every field_;
   std::optional<io::Table> table_;
   std::optional<io::FieldWriter> fields_;
   analysis::Tracker tracker_;

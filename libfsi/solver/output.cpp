@@ -34,7 +34,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
       lock_(io::make_directory(which.output.directory)),
       checkpoints_(which.output.directory, solver.mesh()),
       record_(which.solid.name == "torus"),
-      sample_(which.output.sample_interval),
+      samples_(which.output.sample_interval),
       field_(which.output.field_interval),
       checkpoint_(which.output.checkpoint_interval) {
   if (which.output.restart) {
@@ -104,7 +104,8 @@ void Output::go_on_from_checkpoint() {
   simulated_ = now;
   solver_.resume();
   saved_step_ = solver_.state().step;
-  for (Every* event : {&sample_, &field_, &checkpoint_}) event->resume(solver_.state().t);
+  samples_.resume(solver_.state().t, samples_text_);
+  for (Every* event : {&field_, &checkpoint_}) event->resume(solver_.state().t);
   if (rank() != 0) return;
   if (!notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
   std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
@@ -120,6 +121,8 @@ io::Snapshot Output::snapshot() {
   all.add("simulated", &simulated_);
   solver_.list(all);
   all.add("rejected_steps", &solver_.report().rejected);
+  samples_text_ = samples_.text();
+  all.add("rows", &samples_text_);
   if (solver_.body()) record_.list(all);
   return all;
 }
@@ -134,12 +137,16 @@ void Output::open_tables() {
   const std::string& directory = case_.output.directory;
   const bool restart = case_.output.restart;
   const Real t = restart ? solver_.state().t : -std::numeric_limits<Real>::infinity();
-  flow_.emplace(directory + "/flow.csv", names(flow_row(solver_, {}, 0, 0)), t);
-  if (solver_.body()) {
-    SolidRecord first = record_;  // a restart must find the record as it was
-    const std::vector<Entry> row = first.row(solver_);
-    solid_.emplace(directory + "/solid.csv", names(row), t);
-    if (!restart) record_ = first, solid_->row(values(row));
+  const Real t_row = restart ? std::max(t, samples_.last(t)) : t;
+  const SolidRecord before = record_;
+  std::vector<Row> first = rows({}, 0, 0);
+  flow_.emplace(directory + "/flow.csv", names(first[0].entries), t_row);
+  if (solver_.body()) solid_.emplace(directory + "/solid.csv", names(first[1].entries), t_row);
+  if (restart) {
+    record_ = before;  // it must be found as it was
+  } else {
+    if (solver_.body()) solid_->row(values(first[1].entries));
+    samples_.hold(std::move(first));
   }
   if (case_.output.field_interval <= 0) return;
   fields_.emplace(directory, solver_.mesh(), t);
@@ -159,7 +166,7 @@ bool Output::go_on() {
 
 Real Output::next_event() const {
   const Real t = solver_.state().t;
-  return std::min({sample_.next(t), field_.next(t), checkpoint_.next(t)});
+  return std::min({samples_.next_event(t), field_.next(t), checkpoint_.next(t)});
 }
 
 Limit Output::count(const Limit& limit, Real dt) {
@@ -182,8 +189,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
   tell_of_leaving();
-  const bool every_step = case_.output.sample_interval <= 0;
-  if (every_step || sample_.due(s.t)) write_row(limit, dt);
+  write_rows(limit, dt);
   if (field_.due(s.t)) write_fields();
   if (checkpoint_.due(s.t)) write_checkpoint();
   constexpr Real seconds_between = 1;
@@ -210,14 +216,38 @@ void Output::tell_of_leaving() {
                  solver_.state().t);
 }
 
-void Output::write_row(const Limit& limit, Real dt) {
-  const std::int64_t step = solver_.state().step;
-  const Real now = watch_.seconds();
-  const auto steps = static_cast<Real>(std::max<std::int64_t>(1, step - row_step_));
-  flow_->row(values(flow_row(solver_, limit, dt, (now - rows_at_) / steps)));
-  if (solver_.body() && solver_.body()->gone == 0) solid_->row(values(record_.row(solver_)));
-  rows_at_ = now;
-  row_step_ = step;
+/// Of both tables, or of flow.csv alone.
+std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
+  const State& s = solver_.state();
+  const Real t_shape = solver_.body() ? solver_.body()->t : s.t;
+  std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
+  if (s.step == 0)
+    for (Entry& entry : all[0].entries)
+      if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
+  if (solver_.body() && solver_.body()->gone == 0)
+    all.push_back({s.t, t_shape, record_.row(solver_)});
+  return all;
+}
+
+void Output::write_rows(const Limit& limit, Real dt) {
+  const State& s = solver_.state();
+  const std::vector<Real> times = samples_.due(s.t);
+  // The clock looks two steps ahead, and the next one is hardly longer by half; where it were, it
+  // would end at the row.
+  constexpr Real steps_ahead = 3;
+  const bool near = samples_.near(s.t, steps_ahead * std::max(dt, limit.dt));
+  std::vector<Row> now;
+  if (near || !times.empty()) {
+    const Real seconds = watch_.seconds();
+    const auto steps = static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
+    now = rows(limit, dt, (seconds - rows_at_) / steps);
+    if (!times.empty()) rows_at_ = seconds, row_step_ = s.step;
+  }
+  for (const Real t : times) {
+    flow_->row(samples_.row(0, now[0], t));
+    if (now.size() > 1) solid_->row(samples_.row(1, now[1], t));
+  }
+  samples_.hold(near ? std::move(now) : std::vector<Row>{});
 }
 
 void Output::write_fields() {

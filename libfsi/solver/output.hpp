@@ -16,6 +16,7 @@
 #include "libfsi/io/table.hpp"
 #include "libfsi/solver/case.hpp"
 #include "libfsi/solver/records.hpp"
+#include "libfsi/solver/samples.hpp"
 
 namespace fsi {
 
@@ -57,7 +58,8 @@ class Output {
   void open_tables();
   void write_due(const Limit& asked, Real dt);
   void tell_of_leaving();
-  void write_row(const Limit& limit, Real dt);
+  void write_rows(const Limit& limit, Real dt);
+  std::vector<Row> rows(const Limit& limit, Real dt, Real wall_per_step);
   Limit count(const Limit& limit, Real dt);
   void write_fields();
   void write_checkpoint();
@@ -71,7 +73,9 @@ class Output {
   io::Lock lock_;
   io::Checkpoint checkpoints_;
   SolidRecord record_;
-  Every sample_, field_, checkpoint_;
+  Samples samples_;
+  std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
+  Every field_, checkpoint_;
   std::optional<io::Table> flow_, solid_;
   std::optional<io::FieldWriter> fields_;
   Stopwatch watch_;

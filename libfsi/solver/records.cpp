@@ -97,8 +97,9 @@ void add_openings(std::vector<Entry>& row, const Solver& solver) {
     any = true;
     const Real Q = flow_rate(solver, patch), A = area(patch, mesh);
     row.push_back({"flow_rate_" + patch.name, Q});
-    row.push_back({"mean_pressure_" + patch.name, open ? solver.opening_pressure(patch.name)
-                                                       : mean_pressure_beside(solver, patch)});
+    row.push_back({"mean_pressure_" + patch.name,
+                   open ? solver.opening_pressure(patch.name) : mean_pressure_beside(solver, patch),
+                   Course::pressure});
     const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
     velocity_length = std::max(velocity_length, std::abs(Q) / A * D);
   }
@@ -112,8 +113,9 @@ Real pressure_span(const Solver& solver) {
   return global_max(high) - global_min(low);
 }
 
-void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) row.push_back({columns[static_cast<std::size_t>(i)], v[i]});
+void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v,
+         Course course = Course::smooth) {
+  for (int i = 0; i < 3; ++i) row.push_back({columns[static_cast<std::size_t>(i)], v[i], course});
 }
 
 Real aspect(const analysis::Ellipse& e) { return e.aspect(); }
@@ -180,21 +182,21 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
            : 0;
   std::vector<Entry> row{
       {"t", solver.state().t},
-      {"dt", dt},
-      {"dt_limit", limit.dt},
-      {"limit", limit_code(limit.name)},
-      {"courant", dt / solver.advective_dt(1)},
-      {"pressure_gradient", solver.driving_gradient()},
-      {"pressure_drop", pressure_drop(solver)},
-      {"pressure_span", pressure_span(solver)},
+      {"dt", dt, Course::step},
+      {"dt_limit", limit.dt, Course::step},
+      {"limit", limit_code(limit.name), Course::step},
+      {"courant", dt / solver.advective_dt(1), Course::step},
+      {"pressure_gradient", solver.driving_gradient(), Course::pressure},
+      {"pressure_drop", pressure_drop(solver), Course::pressure},
+      {"pressure_span", pressure_span(solver), Course::pressure},
       {"flow_rate", flow_rate(solver)},
       {"mean_velocity", solver.mean_velocity()},
-      {"divergence_max", flow::divergence_max(solver.state().phi, mesh)},
+      {"divergence_max", flow::divergence_max(solver.state().phi, mesh), Course::step},
       {"kinetic_energy", kinetic_energy(solver)},
-      {"elastic_energy", elastic},
-      {"rejected_steps", static_cast<Real>(solver.report().rejected)},
-      {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations)},
-      {"wall_per_step", wall_per_step}};
+      {"elastic_energy", elastic, Course::shape},
+      {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
+      {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
+      {"wall_per_step", wall_per_step, Course::step}};
   add_openings(row, solver);
   return row;
 }
@@ -216,15 +218,15 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   add(row, {"ux", "uy", "uz"}, m.velocity);
   row.push_back({"volume", m.volume});
   row.push_back({"volume_out", body.volume_out});
-  add(row, {"nx", "ny", "nz"}, o.n);
-  row.push_back({"angle", o.angle});
+  add(row, {"nx", "ny", "nz"}, o.n, Course::shape);
+  row.push_back({"angle", o.angle, Course::shape});
   row.push_back({"det_B_min", h.det_min});
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
-  row.push_back({"overshoot", body.advected.remaining});
+  row.push_back({"overshoot", body.advected.remaining, Course::step});
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});
-  row.push_back({"taylor_angle", shape.angle});
+  row.push_back({"taylor_angle", shape.angle, Course::half_turn});
   if (const auto* map = std::get_if<solid::ReferenceMap>(&body.kinematics))
     add_map(row, *map, body.alpha, mesh);
   if (!ring_ || mesh.dim == 2) return row;

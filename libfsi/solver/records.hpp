@@ -8,14 +8,9 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/io/checkpoint.hpp"
 #include "libfsi/solver/case.hpp"
+#include "libfsi/solver/samples.hpp"
 
 namespace fsi {
-
-/// A number under the name of its column.
-struct Entry {
-  std::string name;
-  Real value;
-};
 
 std::vector<std::string> names(const std::vector<Entry>& row);
 std::vector<Real> values(const std::vector<Entry>& row);
@@ -24,12 +19,12 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// pressure_drop between the patches inlet and outlet, S times the period in a periodic channel;
 /// pressure_span = max p - min p; flow_rate through the patch `outlet`, the section of a periodic
 /// channel; us and dt as they are; limit: what set dt, 0 nothing, 1 -time_step, 2 advective, 3
-/// elastic, 4 start, 5 -time_step_max, 6 an event to be hit, 7 growing again after a rejected step,
-/// 8 strain of the solid. Of each patch NAME that fluid goes through flow_rate_NAME, out of the
-/// domain, and mean_pressure_NAME: at an opening what is given there, behind its load's answer, in
-/// the middle of the step; where the flow is prescribed that of the cells beside it. reynolds: rho
-/// U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in 2-D the width) of the patch where
-/// it is largest.
+/// elastic, 4 start, 5 -time_step_max, 6 an event to be hit (a file or the end), 7 growing again
+/// after a rejected step, 8 strain of the solid. Of each patch NAME that fluid goes through
+/// flow_rate_NAME, out of the domain, and mean_pressure_NAME: at an opening what is given there,
+/// behind its load's answer, in the middle of the step; where the flow is prescribed that of the
+/// cells beside it. reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in
+/// 2-D the width) of the patch where it is largest.
 std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
 /// Follows the solid from row to row. What it remembers is part of a checkpoint.
@@ -38,7 +33,8 @@ class SolidRecord {
   /// ring: whether the shape is a torus, whose deformation is measured too.
   explicit SolidRecord(bool ring) : ring_(ring) {}
 
-  /// Collective. A row of solid.csv.
+  /// Collective. A row of solid.csv: centroid, velocity and `taylor` at the state's time, the shape
+  /// at that of the solid.
   std::vector<Entry> row(const Solver& solver);
   /// Relative change of volume since the start, at the last row.
   Real drift() const { return drift_; }

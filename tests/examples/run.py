@@ -70,7 +70,11 @@ def check_files(out, ranks):
         summary = json.load(file)
     check(summary["status"] == "complete", f"{out}: status is {summary['status']}")
     check(summary["ranks"] == ranks, f"{out}: ranks are {summary['ranks']}")
-    check(os.path.exists(os.path.join(out, "run.yaml")), f"{out}: run.yaml is there")
+    with open(os.path.join(out, "run.yaml"), encoding="utf-8") as file:
+        yaml = file.read()
+    check(f"# libfsi {summary['version']}, commit {summary['commit']}\n" in yaml,
+          f"{out}: run.yaml is there and tells the version and commit of summary.json")
+    check(not re.search(r': "-?\d+e\+0', yaml), f"{out}: run.yaml has no 1e+01 for 10")
     for table in ("flow.csv", "solid.csv"):
         if os.path.exists(os.path.join(out, table)):
             with open(os.path.join(out, table), encoding="utf-8") as file:

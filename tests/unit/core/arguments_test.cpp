@@ -19,6 +19,8 @@ TEST(Arguments, AnOptionsFileComesFirst) {
   EXPECT_EQ(a.words,
             (std::vector<std::string>{"program", "-options_file_yaml", "case.yaml", "-a", "1"}));
   EXPECT_EQ(read({"-a", "case.yaml"}).file, "");
+  EXPECT_FALSE(a.version);
+  EXPECT_TRUE(read({"-version"}).version);
 }
 
 TEST(Arguments, EveryWordBelongsToAnOption) {
@@ -36,6 +38,22 @@ TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
   EXPECT_EQ(repeated_key("solid:  # soft\n  shape: torus\n\nsolid_shape: disk\n"), "solid_shape");
   EXPECT_EQ(repeated_key("a:\n  b:\n    c: 1\n  d: 2\na:\n  b:\n    c: 1\n"), "a_b_c");
   EXPECT_EQ(repeated_key("mesh: {a: 1, b: 2}\n# mesh: 1\nfile: C:x\n"), "");
+  EXPECT_EQ(repeated_key("\"a\": 1\n'a': 2\n"), "a");
+}
+
+TEST(Arguments, KeysGivenTwiceAreFoundInBraces) {
+  EXPECT_EQ(repeated_key("{a: 1, a: 2}"), "a");
+  EXPECT_EQ(repeated_key("solid: {shape: torus, density: 1, shape: disk}\n"), "solid_shape");
+  EXPECT_EQ(repeated_key("solid: {shape: torus}\nsolid_shape: disk\n"), "solid_shape");
+  EXPECT_EQ(repeated_key("solid: {a: 1}\nsolid: {b: 1}\nsolid:\n  a: 2\n"), "solid_a");
+  EXPECT_EQ(repeated_key("a: {b: {c: 1, d: 2},\n  # b: 1\n    b: {c: 3}}\n"), "a_b_c");
+  EXPECT_EQ(repeated_key("a:\n  {b: 1, 'c': 2,\n   \"c\": 3}\n"), "a_c");
+  EXPECT_EQ(repeated_key("a: {b, c, b}\n"), "a_b");
+  EXPECT_EQ(repeated_key("{\"a\":1,\"a\":2}\n"), "a");
+  EXPECT_EQ(repeated_key("a: [x, y, x]\nb: {c: [1, 1], d: '}, c: 1'}\n"), "");
+  EXPECT_EQ(repeated_key("p: {in: {type: a}, out: {type: a}, wall: {type: wall}}\n"), "");
+  EXPECT_EQ(repeated_key("a: {x: 'it''s', y: \"a\\\"b, x: 1\"}\nb: {x: 1}\n"), "");
+  EXPECT_EQ(repeated_key("a: {b: 1  # b: 2\n}\nc: {"), "");
 }
 
 }  // namespace

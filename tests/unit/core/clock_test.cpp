@@ -31,6 +31,15 @@ TEST(Clock, AnEventWithoutIntervalNeverFires) {
   EXPECT_FALSE(event.due(5));
 }
 
+TEST(Clock, EveryMultipleIsReachedOnce) {
+  Every event(0.5);
+  EXPECT_EQ(event.reached(0.3), std::vector<Real>{0});
+  EXPECT_EQ(event.reached(1.6), (std::vector<Real>{0.5, 1, 1.5}));
+  EXPECT_TRUE(event.reached(1.9).empty());
+  EXPECT_EQ(event.last(1.9), 1.5);
+  EXPECT_EQ(event.reached(2 - 1e-12), std::vector<Real>{2});
+}
+
 TEST(Clock, ResumeForgetsWhatLiesBefore) {
   Every event(0.5);
   event.resume(1.2);

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/version.hpp"
 
 namespace fsi {
 namespace {
@@ -41,6 +42,38 @@ TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
   EXPECT_NO_THROW(options.check_unknown());
   EXPECT_NE(options.yaml().find("a: \"2.5\""), std::string::npos);
   FSI_PETSC(PetscOptionsClear(nullptr));
+}
+
+TEST(Options, NumbersOfAnEverydaySizeHaveNoExponent) {
+  FSI_PETSC(PetscOptionsClear(nullptr));
+  Options options("test", "a test");
+  const std::vector<std::pair<Real, const char*>> numbers{{10, "10"},
+                                                          {-360, "-360"},
+                                                          {0.1, "0.1"},
+                                                          {1e-4, "0.0001"},
+                                                          {1e15, "1000000000000000"},
+                                                          {1e6, "1000000"},
+                                                          {0, "0"},
+                                                          {-0.5, "-0.5"},
+                                                          {1.0 / 3, "0.3333333333333333"},
+                                                          {2e-5, "2e-05"},
+                                                          {1e300, "1e+300"},
+                                                          {123456.789, "123456.789"}};
+  int number = 0;
+  for (const auto& [value, text] : numbers) {
+    const std::string name = std::string("a").append(std::to_string(number++));
+    options.real(name, value, {.help = ""});
+    EXPECT_EQ(options.values().at(name), text);
+    EXPECT_EQ(std::stod(text), value);
+  }
+}
+
+TEST(Options, TheFileThatRepeatsTheRunNamesVersionAndCommit) {
+  const std::string yaml = Options("test", "a test").yaml();
+  EXPECT_NE(yaml.find("\n# libfsi " + version() + ", commit " + commit() + "\n"),
+            std::string::npos);
+  EXPECT_FALSE(version().empty());
+  EXPECT_FALSE(commit().empty());
 }
 
 TEST(Options, BadValuesNameTheOptionAndTheRange) {

@@ -19,7 +19,7 @@ TEST(Signals, WhatOneRankReceivesAllKnowOnce) {
 
 TEST(Signals, TheEndOutweighsACheckpoint) {
   watch_signals();
-  for (const int signal : {SIGTERM, SIGUSR2}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR2}) {
     if (rank() == 0) std::raise(signal);
     std::raise(SIGUSR1);
     EXPECT_EQ(pending_signal(), Signal::end);

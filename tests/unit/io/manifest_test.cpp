@@ -16,12 +16,14 @@ TEST(Manifest, SummaryIsJson) {
   io::Summary summary;
   summary.case_name = "a \"case\"\n\t\\";
   summary.status = "complete";
+  summary.version = "1.2.3", summary.commit = "abc";
   summary.cells = 100, summary.steps = 10, summary.wall_seconds = 2;
   summary.solid_volume_drift = std::numeric_limits<Real>::quiet_NaN();
   summary.phases = {{"pressure", 1.5}, {"vof", 0.25}};
   summary.limits = {{"elastic", 7}};
   EXPECT_EQ(io::json(summary),
             "{\n  \"case\": \"a \\\"case\\\"  \\\\\",\n  \"status\": \"complete\",\n"
+            "  \"version\": \"1.2.3\",\n  \"commit\": \"abc\",\n"
             "  \"message\": \"\",\n  \"cells\": 100,\n  \"ranks\": 1,\n  \"steps\": 10,\n"
             "  \"t\": 0,\n  \"rejected_steps\": 0,\n  \"wall_seconds\": 2,\n"
             "  \"us_per_cell_step\": 2000,\n  \"phases\": {\"pressure\": 1.5, \"vof\": 0.25},\n"

@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""examples/sweep/run: side by side, gone on with after a kill, with any driver, and drawn.
+
+    sweep.py SOURCE DRIVERS FOLDER
+"""
+import csv
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+failures = []
+
+
+def check(holds, sentence):
+    print("ok  " if holds else "FAIL", sentence)
+    if not holds:
+        failures.append(sentence)
+
+
+def text(*path):
+    try:
+        with open(os.path.join(*path), encoding="utf-8") as file:
+            return file.read()
+    except OSError:
+        return ""
+
+
+def processes_of(folder):
+    """Processes of this user whose command line names the folder as -output_dir."""
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/cmdline", "rb") as file:
+                words = file.read().decode(errors="replace").split("\0")
+        except OSError:
+            continue
+        if "-output_dir" in words and words[words.index("-output_dir") + 1] == folder:
+            yield int(name)
+
+
+def wait_for(condition):
+    end = time.monotonic() + 60
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    return condition()
+
+
+def has_checkpoint(folder):
+    return os.path.isdir(folder) and any(f.startswith("checkpoint_") for f in os.listdir(folder)
+                                         if f.endswith(".h5"))
+
+
+def main():
+    source, drivers, folder = sys.argv[1:4]
+    folder = os.path.join(os.path.abspath(folder), "sweep")
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    mesh, points, out = (os.path.join(folder, name) for name in ("mesh.msh", "points.csv", "out"))
+    subprocess.run(["gmsh", "-2", os.path.join(source, "meshes", "cavity.geo"), "-setnumber", "n",
+                    "16", "-o", mesh], check=True, stdin=subprocess.DEVNULL,
+                   stdout=subprocess.DEVNULL)
+    driver = os.path.join(folder, "my_cavity")  # a driver of any name
+    os.symlink(os.path.abspath(os.path.join(drivers, "fsi-cavity")), driver)
+    with open(points, "w", encoding="utf-8") as file:
+        file.write(" lid_velocity , solid_center\n# a comment\n 1 , \"0.6, 0.5, 0\" \n\n"
+                   " 0.5 , \"0.5, 0.5, 0\"\n")
+    names = ["lid_velocity=1_solid_center=0.6,0.5,0", "lid_velocity=0.5_solid_center=0.5,0.5,0"]
+    first, second = (os.path.join(out, name) for name in names)
+    case = os.path.join(source, "examples", "cavity_disc.yaml")
+    command = [os.path.join(source, "examples", "sweep", "run"), "-j", "2", case, points, out, "--",
+               driver, "-mesh", mesh, "-time_end", "20", "-output_interval", "0",
+               "-checkpoint_interval", "0.5"]
+
+    def start():
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+
+    sweep = start()
+    check(wait_for(lambda: has_checkpoint(first) and has_checkpoint(second)), "both points begin")
+    alive = [list(processes_of(point)) for point in (first, second)]
+    check(all(alive), f"and run side by side {alive}")
+    for process in alive[0]:
+        os.kill(process, signal.SIGKILL)
+    said = sweep.communicate()[0]
+    check(sweep.returncode == 1 and f"{names[0]}: failed (-9)" in said and
+          f"{names[1]}: complete" in said, f"the killed one fails, the other completes: {said}")
+
+    again = start()
+    check(wait_for(lambda: "going on from t" in text(first, "log.txt")), "it goes on")
+    again.send_signal(signal.SIGINT)
+    said = again.communicate()[0]
+    check(again.returncode == 5 and f"{names[0]}: interrupted" in said,
+          f"SIGINT to the sweep saves it: exit code {again.returncode} {said}")
+
+    last = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    check(last.returncode == 0 and last.stdout.count(": complete") == 2,
+          f"then all is complete: {last.stdout} {last.stderr}")
+    check(text(first, "log.txt").count("going on from t") == 2, "gone on with twice")
+    check(text(second, "log.txt").count("limits on dt") == 1, "what was complete did not run again")
+    rows = list(csv.DictReader(text(out, "sweep.csv").splitlines()))
+    check([row["status"] for row in rows] == ["complete"] * 2 and
+          all(abs(float(row["t"]) - 20) < 1e-9 for row in rows), "the table holds the end of each")
+    check(os.path.exists(os.path.join(out, "sweep.png")), "and is drawn")
+
+    with open(points, "a", encoding="utf-8") as file:
+        file.write("1\n")
+    bad = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    check(bad.returncode == 2 and '"1" has not a value for each of' in bad.stderr,
+          f"a line that is not whole is refused: {bad.stderr}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
