@@ -47,4 +47,20 @@ constexpr const Shape& shape_of(CellType type) {
   return shapes_of_cells[static_cast<std::size_t>(type)];
 }
 
+/// The type of a cell of that dimension and count of corners.
+constexpr CellType type_of(int dim, std::size_t corners) {
+  if (dim == 2) return corners == 3 ? CellType::triangle : CellType::quad;
+  return corners == 4   ? CellType::tet
+         : corners == 8 ? CellType::hex
+         : corners == 6 ? CellType::prism
+                        : CellType::pyramid;
+}
+
+/// What a sentence calls a cell of each type.
+inline constexpr std::array<const char*, 6> names_of_cells{"triangle", "quad",  "tet",
+                                                           "hex",      "prism", "pyramid"};
+constexpr const char* name_of(CellType type) {
+  return names_of_cells[static_cast<std::size_t>(type)];
+}
+
 }  // namespace fsi
