@@ -127,6 +127,13 @@ std::vector<Worst> worst(std::span<const Real> values, const Mesh& mesh, std::si
   return all;
 }
 
+Real value_at(std::span<const Real> values, GlobalIndex cell, const Mesh& mesh) {
+  const auto end = mesh.global_id.begin() + mesh.n_owned;
+  const auto found = std::lower_bound(mesh.global_id.begin(), end, cell);
+  const bool mine = found != end && *found == cell;
+  return global_max(mine ? values[static_cast<std::size_t>(found - mesh.global_id.begin())] : 0);
+}
+
 Quality quality(const Mesh& mesh) { return quality(mesh, cell_quality(mesh)); }
 
 Quality quality(const Mesh& mesh, const CellQuality& cells) {

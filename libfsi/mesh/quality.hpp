@@ -39,6 +39,9 @@ struct Worst {
 /// that with the lower number: the same on any number of ranks.
 std::vector<Worst> worst(std::span<const Real> values, const Mesh& mesh, std::size_t most);
 
+/// Collective. On every rank the value, 0 or more, of the owned cell of that number.
+Real value_at(std::span<const Real> values, GlobalIndex cell, const Mesh& mesh);
+
 /// What a user should know of a mesh before trusting a run on it.
 struct Quality {
   Worst non_orthogonality, skewness, volume_ratio, aspect_ratio;

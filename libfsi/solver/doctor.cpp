@@ -22,14 +22,6 @@ void say(const std::string& line) {
 
 std::string text_of(const Vec3& x) { return print("(%.5g, %.5g, %.5g)", x.x, x.y, x.z); }
 
-/// Collective. An owned cell's value on every rank.
-Real value_of(const std::vector<Real>& values, GlobalIndex id, const Mesh& mesh) {
-  const auto end = mesh.global_id.begin() + mesh.n_owned;
-  const auto found = std::lower_bound(mesh.global_id.begin(), end, id);
-  const bool mine = found != end && *found == id;
-  return global_max(mine ? values[static_cast<std::size_t>(found - mesh.global_id.begin())] : 0);
-}
-
 void tell_of_cells(const Mesh& mesh) {
   std::string line = "cells";
   for (std::size_t i = 0; i < names_of_cells.size(); ++i) {
@@ -122,10 +114,10 @@ void tell_of_worst(const Mesh& mesh, const CellQuality& cells, const std::vector
             "aspect", "where"));
   for (std::size_t i = 0; i < std::min(list.size(), lines_max); ++i) {
     const Worst& w = list[i];
-    const Real angle = value_of(cells.non_orthogonality, w.cell, mesh),
-               skewness = value_of(cells.skewness, w.cell, mesh),
-               ratio = value_of(cells.volume_ratio, w.cell, mesh),
-               aspect = value_of(cells.aspect_ratio, w.cell, mesh);
+    const Real angle = value_at(cells.non_orthogonality, w.cell, mesh),
+               skewness = value_at(cells.skewness, w.cell, mesh),
+               ratio = value_at(cells.volume_ratio, w.cell, mesh),
+               aspect = value_at(cells.aspect_ratio, w.cell, mesh);
     say(print("%-10lld %-9s %8.4g %8.4g %8.4g %8.4g  %s", static_cast<long long>(w.cell),
               name_of(w.type), angle, skewness, ratio, aspect, text_of(w.x).c_str()));
   }
@@ -236,7 +228,7 @@ PatchFigures patch_figures(const Mesh& mesh, const Patch& patch) {
 }
 
 Ending check_mesh_file(const std::string& file) {
-  Options options("fsi-mesh check", "what a mesh is like and what to change in it: " + file);
+  Options options("fsi-mesh check " + file, "what a mesh is like and what to change in it");
   const Wish wish = read_wish(options);
   if (options.help()) return Ending::complete;
   options.check_unknown();
