@@ -1,16 +1,14 @@
 #pragma once
-// The cell types a mesh may hold: corners, faces and how gmsh numbers them.
+// The cells a mesh may hold: corners, faces and how gmsh numbers them.
 
 #include <array>
 #include <cstdint>
 #include <span>
 
 #include "libfsi/core/types.hpp"
+#include "libfsi/mesh/cell_type.hpp"
 
 namespace fsi {
-
-/// In 2-D triangles and quads, in 3-D the rest.
-enum class CellType : std::int8_t { triangle, quad, tet, hex, prism, pyramid };
 
 /// A cell has at most that many corners and faces, a face that many corners.
 inline constexpr int max_corners = 8, max_faces = 6, max_face_corners = 4;
@@ -45,22 +43,6 @@ inline constexpr std::array<Shape, 6> shapes_of_cells{{
 
 constexpr const Shape& shape_of(CellType type) {
   return shapes_of_cells[static_cast<std::size_t>(type)];
-}
-
-/// The type of a cell of that dimension and count of corners.
-constexpr CellType type_of(int dim, std::size_t corners) {
-  if (dim == 2) return corners == 3 ? CellType::triangle : CellType::quad;
-  return corners == 4   ? CellType::tet
-         : corners == 8 ? CellType::hex
-         : corners == 6 ? CellType::prism
-                        : CellType::pyramid;
-}
-
-/// What a sentence calls a cell of each type.
-inline constexpr std::array<const char*, 6> names_of_cells{"triangle", "quad",  "tet",
-                                                           "hex",      "prism", "pyramid"};
-constexpr const char* name_of(CellType type) {
-  return names_of_cells[static_cast<std::size_t>(type)];
 }
 
 }  // namespace fsi

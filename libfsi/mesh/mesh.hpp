@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libfsi/core/types.hpp"
-#include "libfsi/mesh/cells.hpp"
+#include "libfsi/mesh/cell_type.hpp"
 #include "libfsi/mesh/halo.hpp"
 
 namespace fsi {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/cells.hpp"
 #include "libfsi/mesh/metrics.hpp"
 
 namespace fsi {

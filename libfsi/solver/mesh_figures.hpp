@@ -10,9 +10,9 @@
 namespace fsi {
 
 /// Past these a driver warns and fsi-mesh check advises. The shipped geometries in tets that gmsh
-/// has optimised reach 70 degrees, 1.5, 7 and 7; as they come, slivers among them, 86 degrees, 1.8,
-/// 400 and 660. The tested flows complete on those too (doc/verification/tetrahedra.md), but such
-/// cells take from accuracy and length of the step.
+/// has optimised reach 70 degrees, 1.4, 7 and 6.3; as they come, slivers among them, 86
+/// degrees, 1.8, 400 and 660. The tested flows complete on those too
+/// (doc/verification/tetrahedra.md), but such cells take from accuracy and length of the step.
 struct MeshLimits {
   Real non_orthogonality = 75, skewness = 2, volume_ratio = 20, aspect_ratio = 25;
   Real gap = 6;  ///< cells across the narrowest passage, at least
