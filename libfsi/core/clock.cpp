@@ -45,4 +45,20 @@ Real Clock::step(Real limit, Real event) const {
   return rest < 2 * limit ? rest / 2 : limit;
 }
 
+Real Forecast::seconds_left(Real wall, Real t, Real end) {
+  if (wall > wall_) {
+    const Real recent = (t - t_) / (wall - wall_);
+    speed_ = speed_ < 0 ? recent : (speed_ + recent) / 2;
+    wall_ = wall, t_ = t;
+  }
+  const Real rest = std::max(Real{0}, end - t);
+  return speed_ > 0 ? rest / speed_ : rest > 0 ? std::numeric_limits<Real>::infinity() : 0;
+}
+
+std::string Forecast::text(Real seconds) {
+  constexpr Real most = 10 * 24 * 3600;
+  if (!(seconds < most)) return "more than 10 days";
+  return std::to_string(static_cast<std::int64_t>(std::round(seconds))) + " s";
+}
+
 }  // namespace fsi

@@ -71,4 +71,18 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// When a run will be through, by how simulated time came on lately, not by the last step alone.
+class Forecast {
+ public:
+  explicit Forecast(Real t = 0) : t_(t) {}
+  /// Seconds from now to `end`, at simulated time t after `wall` seconds: by the mean of the speed
+  /// since the last call and what was taken then; infinite where time does not come on.
+  Real seconds_left(Real wall, Real t, Real end);
+  /// "120 s"; "more than 10 days" from there on.
+  static std::string text(Real seconds);
+
+ private:
+  Real wall_ = 0, t_, speed_ = -1;
+};
+
 }  // namespace fsi

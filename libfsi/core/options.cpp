@@ -203,11 +203,13 @@ Options::Options(std::string program, std::string purpose) : program_(std::move(
   if (help_)
     FSI_PETSC(
         PetscPrintf(comm(),
-                    "%s: %s\n\n  %s [CASE.yaml] [-OPTION VALUE ...]\n\n"
+                    "%s: %s\n\n  %s%s [-OPTION VALUE ...]\n\n"
                     "Keys of the file join with _; the command line wins. Solvers take PETSc's "
                     "options:\n-p_ksp_monitor, -u_ksp_rtol 1e-9, -log_view ...\n"
                     "-version tells version and commit.\n\n",
-                    program_.c_str(), purpose.c_str(), program_.c_str()));
+                    program_.c_str(), purpose.c_str(), program_.c_str(),
+                    // What comes with a command and its file takes no case besides.
+                    program_.find(' ') == std::string::npos ? " [CASE.yaml]" : ""));
 }
 
 void Options::record(Entry entry) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -127,7 +128,54 @@ int end_petsc(int code) {
   return code == 0 && ended != 0 ? static_cast<int>(Kind::internal) : code;
 }
 
+/// "check in.msh (what it does)", one after the other.
+std::string list_of(const std::vector<Command>& commands, const char* separator) {
+  std::string text;
+  for (const Command& command : commands)
+    text += (text.empty() ? "" : separator) + command.name + " " + command.operands + " (" +
+            command.purpose + ")";
+  return text;
+}
+
+Ending run_command(const std::vector<Command>& commands, const std::vector<std::string>& words,
+                   bool help) {
+  if (words.empty() && help) {
+    int mine = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &mine);
+    if (mine == 0) std::printf("commands:\n  %s\n", list_of(commands, "\n  ").c_str());
+    return Ending::complete;
+  }
+  require(!words.empty(), "a command is missing; there are: " + list_of(commands, ", "));
+  for (const Command& command : commands) {
+    if (command.name != words.front()) continue;
+    std::istringstream stream(command.operands);
+    const std::vector<std::string> expected{std::istream_iterator<std::string>(stream), {}};
+    if (help) return command.body(expected);
+    require(words.size() == 1 + expected.size(),
+            "command \"" + command.name + "\" is written " + command.name + " " + command.operands +
+                " [options]; given are " + std::to_string(words.size() - 1) + " words after it");
+    return command.body({words.begin() + 1, words.end()});
+  }
+  throw Error(Kind::input, "command \"" + words.front() +
+                               "\" is not known; there are: " + list_of(commands, ", "));
+}
+
 }  // namespace
+
+int run(int argc, char** argv, const std::vector<Command>& commands) {
+  std::vector<std::string> words;
+  std::vector<char*> rest{argv[0]};
+  for (int i = 1; i < argc; ++i) {
+    if (rest.size() == 1 && argv[i][0] != '-')
+      words.emplace_back(argv[i]);
+    else
+      rest.push_back(argv[i]);
+  }
+  const bool help = read_arguments(argc, argv).help;
+  const auto count = static_cast<int>(rest.size());
+  rest.push_back(nullptr);
+  return run(count, rest.data(), [&] { return run_command(commands, words, help); });
+}
 
 int run(int argc, char** argv, const std::function<Ending()>& body) {
   int threads = 0;

@@ -2,6 +2,8 @@
 // The rim of every program: set-up and tear-down of MPI and PETSc, and the last catch.
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace fsi {
 
@@ -13,5 +15,18 @@ enum class Ending : int { complete = 0, interrupted = 5 };
 /// of the program: the Ending, or the Kind of the Error thrown, whose sentence it prints once. An
 /// exception on one rank ends all ranks: none is left waiting.
 int run(int argc, char** argv, const std::function<Ending()>& body);
+
+/// One of the things a program of several commands does: PROGRAM NAME OPERANDS... [options].
+struct Command {
+  std::string name;
+  std::string operands;  ///< what they are, a word each: "in.msh out.h5"
+  std::string purpose;
+  std::function<Ending(const std::vector<std::string>&)> body;  ///< takes the operands
+};
+
+/// run() of the command that the first word names. Another or none, or another number of operands:
+/// Error{input} that lists the commands; with -help alone they are printed, and a command with
+/// -help gets its `operands` as they stand.
+int run(int argc, char** argv, const std::vector<Command>& commands);
 
 }  // namespace fsi

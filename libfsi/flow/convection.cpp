@@ -40,7 +40,6 @@ std::vector<std::string> convection_names() {
 void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
                 const BoundaryField<Vec3>& u_b, const std::vector<Tensor>& L_f,
                 const FaceWeights& weights, const Mesh& mesh, bool symmetric) {
-  constexpr Real damping = 0.25;  // of the offset of a face in parts of |d|
   conv.fill({});
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
@@ -55,7 +54,7 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
     if (f >= mesh.n_internal) break;
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Vec3 d = mesh.d[f], m = weights.from_midpoint(f, mesh);
-    const Real beta = std::min(Real{1}, damping * norm(m) / norm(d));
+    const Real beta = weights.damping(f, mesh);
     const Vec3 rest =
         phi[f] * dot(L_f[i], m) - (0.5 * beta * std::abs(phi[f])) * (u[N] - u[P] - dot(L_f[i], d));
     conv[P] += rest;

@@ -94,8 +94,7 @@ void Momentum::set_theta(Real theta_now) {
   theta_f_.fill(theta_now);
   for (const Index f : weights_.irregular) {
     if (f >= mesh_.n_internal && boundary_.varied[f - mesh_.n_internal] == 0) continue;
-    const Real oblique = std::min(Real{1}, (1 + weights_.tangent(f, mesh_)) / 2);
-    theta_f_[f] = std::max(theta_now, oblique);
+    theta_f_[f] = std::max(theta_now, weights_.implicit(f, mesh_));
   }
 }
 

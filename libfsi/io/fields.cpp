@@ -11,7 +11,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/io/file.hpp"
 #include "libfsi/io/hdf5.hpp"
-#include "libfsi/io/vtk_mesh.hpp"
+#include "libfsi/io/vtk_file.hpp"
 
 namespace fsi::io {
 namespace {
@@ -19,13 +19,6 @@ namespace {
 constexpr const char* mesh_file = "fields_mesh.hdf";
 constexpr const char* series_file = "/fields.hdf.series";
 constexpr const char* entry_text = "{\"name\": \"%63[^\"]\", \"time\": %lf}";
-
-/// What makes a group one that VTK reads.
-void head(Hdf5Image& image) {
-  image.group("/VTKHDF");
-  image.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
-  image.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-}
 
 /// xx xy xz yy yz zz -> xx yy zz xy yz xz, as ParaView names the components. values: room for
 /// them, or where they are already.
@@ -37,18 +30,6 @@ std::span<const Real> ordered_as_paraview(std::span<const Real> from, std::vecto
     std::copy(v.begin(), v.end(), values.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return values;
-}
-
-/// Collective. Rank 0's reason becomes everybody's Error{io}.
-void agree(const std::string& file, const std::string& reason) {
-  const std::string shared = broadcast(reason);
-  if (!shared.empty())
-    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + shared);
-}
-
-std::string put(const std::string& path, Hdf5Image& image) {
-  const Bytes bytes = image.bytes();
-  return bytes.empty() ? "HDF5 could not make it" : replace_file(path, {bytes}, Durable::no);
 }
 
 }  // namespace
@@ -64,17 +45,9 @@ void FieldWriter::write_mesh() const {
   const std::string path = directory_ + "/" + mesh_file;
   std::string reason;
   if (rank() == 0) {
-    Hdf5Image image(8 * (mesh.points.size() + mesh.connectivity.size() + mesh.offsets.size()) +
-                    mesh.types.size());
-    const auto count = [](std::size_t n) { return std::array{static_cast<std::int64_t>(n)}; };
-    head(image);
-    image.dataset("/VTKHDF/NumberOfPoints", count(mesh.points.size() / 3));
-    image.dataset("/VTKHDF/NumberOfCells", count(mesh.types.size()));
-    image.dataset("/VTKHDF/NumberOfConnectivityIds", count(mesh.connectivity.size()));
-    image.dataset("/VTKHDF/Points", mesh.points, 3);
-    image.dataset("/VTKHDF/Connectivity", mesh.connectivity);
-    image.dataset("/VTKHDF/Offsets", mesh.offsets);
-    image.dataset("/VTKHDF/Types", mesh.types);
+    Hdf5Image image(bytes_of(mesh));
+    head_vtk(image);
+    add(image, mesh);
     reason = put(path, image);
   }
   agree(path, reason);
@@ -118,7 +91,7 @@ void FieldWriter::write(Real t, std::span<const NamedField> fields) {
   std::optional<Hdf5Image> image;
   if (rank() == 0) {
     image.emplace(8 * width * static_cast<std::size_t>(mesh_.n_global));
-    head(*image);
+    head_vtk(*image);
     for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
                              "Connectivity", "Offsets", "Types"})
       image->link(std::string("/VTKHDF/") + name, mesh_file);

@@ -37,12 +37,15 @@ struct Part {
   std::vector<Vec3> points;
 };
 
-Part part_of(const Mesh& mesh) {
+Part part_of(const Mesh& mesh, std::span<const Index> cells) {
   Part part;
-  part.id.assign(mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned);
-  const auto& rows = mesh.cell_points;
-  part.first.assign(rows.offset.begin(), rows.offset.begin() + mesh.n_owned + 1);
-  part.corners.assign(rows.index.begin(), rows.index.begin() + part.first.back());
+  part.first.push_back(0);
+  for (const Index c : cells) {
+    part.id.push_back(mesh.global_id[c]);
+    const auto corners = mesh.cell_points[c];
+    part.corners.insert(part.corners.end(), corners.begin(), corners.end());
+    part.first.push_back(static_cast<Index>(part.corners.size()));
+  }
   std::vector<Index> number(mesh.points.size(), -1);
   for (Index& p : part.corners) {
     Index& n = number[static_cast<std::size_t>(p)];
@@ -92,7 +95,8 @@ Part joined(std::vector<Part> parts) {
 VtkMesh in_file_order(const Part& all, int dim) {
   const std::vector<std::int64_t> lowest = same_place(all.points);
   std::vector<std::size_t> cell(all.id.size());
-  for (std::size_t i = 0; i < all.id.size(); ++i) cell[static_cast<std::size_t>(all.id[i])] = i;
+  std::iota(cell.begin(), cell.end(), 0);
+  std::ranges::sort(cell, {}, [&](std::size_t i) { return all.id[i]; });
   std::vector<std::int64_t> number(all.points.size(), -1);
   VtkMesh mesh;
   mesh.connectivity.reserve(all.corners.size());
@@ -122,9 +126,15 @@ VtkMesh in_file_order(const Part& all, int dim) {
 }  // namespace
 
 VtkMesh vtk_mesh(const Mesh& mesh) {
+  std::vector<Index> all(static_cast<std::size_t>(mesh.n_owned));
+  std::iota(all.begin(), all.end(), 0);
+  return vtk_mesh(mesh, all);
+}
+
+VtkMesh vtk_mesh(const Mesh& mesh, std::span<const Index> cells) {
   std::vector<Part> parts;
   {
-    const Part mine = part_of(mesh);
+    const Part mine = part_of(mesh, cells);
     auto ids = collect(mine.id);
     auto firsts = collect(mine.first), corners = collect(mine.corners);
     auto points = collect(mine.points);

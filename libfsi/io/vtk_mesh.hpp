@@ -2,6 +2,7 @@
 // The cells of all ranks in the terms of VTK.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libfsi/mesh/mesh.hpp"
@@ -19,5 +20,7 @@ struct VtkMesh {
 
 /// Collective. Rank 0 gets the mesh, the others an empty one.
 VtkMesh vtk_mesh(const Mesh& mesh);
+/// The same of some of the owned cells of each rank.
+VtkMesh vtk_mesh(const Mesh& mesh, std::span<const Index> cells);
 
 }  // namespace fsi::io

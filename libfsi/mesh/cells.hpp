@@ -1,16 +1,14 @@
 #pragma once
-// The cell types a mesh may hold: corners, faces and how gmsh numbers them.
+// The cells a mesh may hold: corners, faces and how gmsh numbers them.
 
 #include <array>
 #include <cstdint>
 #include <span>
 
 #include "libfsi/core/types.hpp"
+#include "libfsi/mesh/cell_type.hpp"
 
 namespace fsi {
-
-/// In 2-D triangles and quads, in 3-D the rest.
-enum class CellType : std::int8_t { triangle, quad, tet, hex, prism, pyramid };
 
 /// A cell has at most that many corners and faces, a face that many corners.
 inline constexpr int max_corners = 8, max_faces = 6, max_face_corners = 4;

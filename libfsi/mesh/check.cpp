@@ -50,6 +50,35 @@ void check_manifold(const CellList& list, const RawMesh& raw, const std::vector<
   });
 }
 
+/// The vertices of a face in order, right-handed about the normal that leaves the cell.
+std::size_t loop_of(const CellList& list, Half half, std::array<Index, max_face_corners>& loop) {
+  const auto corners = list.corners[half.cell];
+  std::size_t n = 0;
+  for (const std::int8_t i : shape_of(list.types[half.cell]).face_corners(half.face))
+    loop[n++] = list.vertex[corners[i]];
+  return n;
+}
+
+/// Two sound cells on either side of a face go round it in opposite ways.
+void check_folded(const CellList& list, const RawMesh& raw, const std::vector<Index>& mate) {
+  std::array<Index, max_face_corners> mine{}, other{};
+  each_half(list, [&](Index half) {
+    if (mate[half] <= half) return;
+    const std::size_t n = loop_of(list, Half(half), mine);
+    loop_of(list, Half(mate[half]), other);
+    std::reverse(other.begin(), other.begin() + static_cast<std::ptrdiff_t>(n));
+    // An edge of a 2-D cell has a beginning, a face of a 3-D one has none.
+    const auto start = n == 2 ? other.begin() : std::ranges::find(other, mine[0]);
+    std::rotate(other.begin(), start, other.begin() + static_cast<std::ptrdiff_t>(n));
+    if (std::equal(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(n), other.begin()))
+      return;
+    refuse(raw.file + ": elements " + std::to_string(raw.tags[Half(half).cell]) + " and " +
+           std::to_string(raw.tags[Half(mate[half]).cell]) + " share the face at " +
+           text_of(centre_of(list, Half(half))) +
+           " and lie on the same side of it: the mesh is folded on itself there");
+  });
+}
+
 void check_connected(const CellList& list, const std::string& file,
                      const std::vector<Index>& mate) {
   std::vector<Index> part(list.types.size(), -1), queue, sizes, firsts;
@@ -193,6 +222,9 @@ std::uint64_t hash_of(const CellList& list) {
 
 CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
   check_cells(raw);
+  require(raw.n_cells() > 1, raw.file + " has only one cell, element " +
+                                 std::to_string(raw.tags[0]) +
+                                 ": a flow needs cells beside each other; make the mesh finer");
   Seams seams = join_seams(raw, periodic);
   CellList list;
   list.dim = raw.dim;
@@ -206,6 +238,7 @@ CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
   check_periods(list, raw.file);
   const std::vector<Index> mate = match_faces(list);
   check_manifold(list, raw, mate);
+  check_folded(list, raw, mate);
   check_connected(list, raw.file, mate);
   name_faces(raw, periodic, mate, list);
   list.hash = hash_of(list);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -15,6 +16,8 @@ namespace {
 
 /// A cell this much smaller than the cube of its longest edge (square in 2-D) has no volume.
 constexpr Real flat = 1e-14;
+/// Corners this close, as a fraction of the cell's longest distance, are one.
+constexpr Real collapsed = 1e-10;
 /// A corner this much below zero, as a fraction of the product of its edges, folds over.
 constexpr Real folded = -1e-10;
 
@@ -70,6 +73,27 @@ void check_repeated(const RawMesh& raw) {
       refuse(element(raw, c) + " names node " + std::to_string(raw.point_tags[corners[i]]) +
              " twice");
     }
+  }
+}
+
+void check_collapsed(const RawMesh& raw) {
+  for (Index c = 0; c < raw.n_cells(); ++c) {
+    const Corners corners(raw, c);
+    Real longest = 0, shortest = std::numeric_limits<Real>::max();
+    std::size_t a = 0, b = 0;
+    for (std::size_t i = 0; i < corners.n; ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const Real between = norm2(corners.x[i] - corners.x[k]);
+        longest = std::max(longest, between);
+        if (between < shortest) shortest = between, a = k, b = i;
+      }
+    }
+    if (shortest > collapsed * collapsed * longest) continue;
+    const auto node = [&](std::size_t i) {
+      return std::to_string(raw.point_tags[raw.corners[c][i]]);
+    };
+    refuse(element(raw, c) + " has a collapsed edge: its nodes " + node(a) + " and " + node(b) +
+           " lie at the same place " + text_of(corners.x[a]));
   }
 }
 
@@ -199,6 +223,7 @@ void check_cells(RawMesh& raw) {
   check_points(raw);
   if (raw.dim == 2) flatten(raw);
   check_repeated(raw);
+  check_collapsed(raw);
   check_volumes(raw);
   check_tangled(raw);
   check_duplicates(raw);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
+#include "libfsi/core/memory.hpp"
 #include "libfsi/mesh/source.hpp"
 
 namespace fsi {
@@ -206,6 +208,10 @@ void Reader::element(const GmshType& type, std::int64_t number, std::int32_t ent
     if (found < 0) node(given, "element " + std::to_string(number));
     list.corners.index.push_back(found);
   }
+  // Corners and faces of cells are numbered by Index (mesh/cell_list.hpp).
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+  if (list.corners.index.size() > most || list.types.size() >= most / max_faces)
+    in_.fail("more elements than one mesh can have, " + std::to_string(most / max_faces));
   list.corners.offset.push_back(static_cast<Index>(list.corners.index.size()));
   list.types.push_back(type.type);
   list.entities.push_back(entity), list.physicals.push_back(physical);
@@ -355,8 +361,14 @@ RawMesh read_gmsh(const std::string& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in || std::filesystem::is_directory(file))
     throw Error(Kind::input, "mesh file \"" + file + "\" cannot be opened, or it is a folder");
-  const auto size = in.tellg();
-  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  const auto end = in.tellg();
+  const auto size = end > 0 ? static_cast<std::size_t>(end) : 0;
+  const std::uint64_t memory = memory_limit();
+  // The text and the cells made of it: at least twice the file (six to eight times were measured).
+  require(size < memory / 2, "mesh file \"" + file + "\" has " + text_of_bytes(size) +
+                                 ", too much for the " + text_of_bytes(memory) +
+                                 " of memory that this process can have");
+  std::string text(size, '\0');
   in.seekg(0);
   if (!in.read(text.data(), static_cast<std::streamsize>(text.size()))) {
     throw Error(Kind::io, "mesh file \"" + file + "\" cannot be read");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libfsi/core/types.hpp"
+#include "libfsi/mesh/cell_type.hpp"
 #include "libfsi/mesh/halo.hpp"
 
 namespace fsi {
@@ -80,6 +81,7 @@ struct Mesh {
   /// Whether a cell is a triangle or a tetrahedron, a quadrilateral or a hexahedron.
   bool simplex(Index c) const { return static_cast<int>(cell_points[c].size()) == dim + 1; }
   bool brick(Index c) const { return static_cast<int>(cell_points[c].size()) == 1 << dim; }
+  CellType type(Index c) const { return type_of(dim, cell_points[c].size()); }
 
   /// Corner i of face f as seen from cell c (its owner, or its neighbour across a period).
   Vec3 corner(Index f, Index i, Index c) const {

@@ -21,16 +21,4 @@ struct MeshOptions {
 /// that names the file, the entity and the valid choices.
 Mesh read_mesh(const MeshOptions& options);
 
-/// Collective. What a user should know of a mesh before trusting a run on it.
-struct Quality {
-  Real non_orthogonality_max = 0, non_orthogonality_mean = 0;  ///< degrees between d and Sf
-  Real skewness_max = 0;  ///< |face centre - crossing of PN with the face| / |d|
-  Real volume_min = 0, volume_max = 0;
-  Real closure_max = 0;  ///< max over cells of |sum Sf| / sum |Sf|
-};
-Quality quality(const Mesh& mesh);
-
-/// Collective. Centroid of a patch, weighted with area. Errors: Error{input} for an unknown name.
-Vec3 centre(const Mesh& mesh, const std::string& patch);
-
 }  // namespace fsi

@@ -1,6 +1,7 @@
 #pragma once
 // What every face operator needs of the mesh, computed once.
 
+#include <algorithm>
 #include <vector>
 
 #include "libfsi/mesh/mesh.hpp"
@@ -40,6 +41,16 @@ struct FaceWeights {
   }
   /// tan of the angle between d and Sf.
   Real tangent(Index f, const Mesh& mesh) const { return norm(k[f]) / norm(mesh.Sf[f]); }
+  /// beta = |m| / (4 |d|), at most 1, m from the midpoint: the share of the upwind value that damps
+  /// what the correction by m costs (flow/convection.hpp).
+  Real damping(Index f, const Mesh& mesh) const {
+    return std::min(Real{1}, norm(from_midpoint(f, mesh)) / (4 * norm(mesh.d[f])));
+  }
+  /// theta_f = (1 + tangent) / 2, at most 1: the share of the compact viscous term that is implicit
+  /// (flow/momentum.hpp).
+  Real implicit(Index f, const Mesh& mesh) const {
+    return std::min(Real{1}, (1 + tangent(f, mesh)) / 2);
+  }
 };
 
 }  // namespace fsi

@@ -23,20 +23,24 @@ constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the press
 
 }  // namespace
 
-std::string Solver::objection(Real dt) const {
-  if (dt > advective_dt(courant_max)) return "the flow became too fast for the step";
+Solver::Objection Solver::objection(Real dt) const {
+  if (dt > advective_dt(courant_max))
+    return {"the flow became too fast for the step", Term::convection};
   if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
-    return "the flow is not divergence-free";
-  if (!body_) return "";
-  if (body_->advected.courant > carried_max) return "the solid moved by more than a cell";
-  if (body_->advected.remaining > fraction_excess_max) return "the fraction of solid left [0, 1]";
-  if (!body_->semi_implicit()) return "";
-  if (dt > elastic_max * elastic_time()) return "the solid became too stiff for the step";
+    return {"the flow is not divergence-free", Term::pressure};
+  if (!body_) return {};
+  if (body_->advected.courant > carried_max)
+    return {"the solid moved by more than a cell", Term::transport};
+  if (body_->advected.remaining > fraction_excess_max)
+    return {"the fraction of solid left [0, 1]", Term::fraction};
+  if (!body_->semi_implicit()) return {};
+  if (dt > elastic_max * elastic_time())
+    return {"the solid became too stiff for the step", Term::elasticity};
   if (dt > strain_dt(strain_max) || global_max(body_->strain.of_part) > strain_max)
-    return "the solid strains too much in the step";
+    return {"the solid strains too much in the step", Term::strain};
   if (global_min(body_->eigenvalue_min) < eigenvalue_min)
-    return "the smallest eigenvalue of B fell below 1e-4";
-  return "";
+    return {"the smallest eigenvalue of B fell below 1e-4", Term::eigenvalue};
+  return {};
 }
 
 void Solver::hold_backup() {
@@ -87,25 +91,29 @@ Real Solver::advance(Real dt) {
   constexpr int halvings = 8;
   std::string reason;
   for (int i = 0; i <= halvings; ++i, dt /= 2) {
+    Objection against;
     try {
       step(dt);
-      reason = objection(dt);
-      if (reason.empty() && stuck(dt)) {
-        reason = "a hundred steps of a millionth of the largest, the flow has become too fast";
+      against = objection(dt);
+      if (against.reason.empty() && stuck(dt)) {
+        reason = "a hundred steps in a row of less than a millionth of the largest; " +
+                 diagnosis(holder(dt), dt);
         break;
-      }
-      if (reason.empty()) {
-        if (i > 0) dt_cap_ = dt, report_.held_back = true;
-        return dt;
       }
     } catch (const Error& error) {
       if (error.kind() != Kind::numerics) throw;
-      reason = error.what();
+      against = {error.what(), Term::solve};
     }
+    if (against.reason.empty()) {
+      if (i > 0) dt_cap_ = dt, report_.held_back = true;
+      return dt;
+    }
+    reason = against.reason;
+    if (i == halvings) reason += "; " + diagnosis(against.term, dt);
     backup_->restore();
     resume();
     ++report_.rejected;
-    ++report_.rejections[reason];
+    ++report_.rejections[against.reason];
   }
   std::array<char, 96> where{};
   std::snprintf(where.data(), where.size(), "step %lld from t = %.6g failed down to dt = %.2g: ",

@@ -10,6 +10,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/mesh_figures.hpp"
 
 namespace fsi {
 namespace {
@@ -99,6 +100,17 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   return output;
 }
 
+/// The patches that are walls.
+std::vector<std::string> walls_of(const Conditions& conditions, const Mesh& mesh) {
+  std::vector<std::string> walls;
+  for (const Patch& patch : mesh.patches) {
+    const auto found = conditions.find(patch.name);
+    if (found != conditions.end() && std::holds_alternative<Wall>(found->second))
+      walls.push_back(patch.name);
+  }
+  return walls;
+}
+
 /// Lines "name value".
 std::map<std::string, std::string> lines(const std::string& text) {
   std::map<std::string, std::string> items;
@@ -164,13 +176,11 @@ std::string differences(const std::string& before, const std::string& now) {
 }
 
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
-  const Quality q = quality(mesh);
+  const MeshFigures figures = mesh_figures(mesh, walls_of(which.flow.conditions, mesh));
   if (rank() != 0) return;
-  std::printf(
-      "mesh %s: %lld cells in %d-D on %d ranks; non-orthogonality max %.1f mean %.1f deg, skewness "
-      "max %.3f\n",
-      which.mesh.file.c_str(), static_cast<long long>(mesh.n_global), mesh.dim, ranks(),
-      q.non_orthogonality_max, q.non_orthogonality_mean, q.skewness_max);
+  std::printf("%s\n", summary(which.mesh.file, mesh, figures).c_str());
+  const std::string past = warning(which.mesh.file, findings(figures));
+  if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
   const Physics& p = which.physics;
   if (velocity == 0) {
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");

@@ -44,6 +44,7 @@ Output::Output(const Case& which, const Options& options, Solver& solver, const 
     checkpoint_.resume(0);  // the start needs none
   }
   first_step_ = row_step_ = solver_.state().step;
+  forecast_ = Forecast(solver_.state().t);
   saving([this] { open(); });
   std::string line = "limits on dt:";
   for (const Limit& limit : limits(solver_, which.time)) {
@@ -276,13 +277,13 @@ void Output::write_progress(const Limit& limit, Real dt) {
   divergence_ = flow::divergence_max(s.phi, solver_.mesh());
   const Real courant = dt / solver_.advective_dt(1);
   if (rank() != 0) return;
-  const auto done = static_cast<Real>(s.step - first_step_), rest = (case_.time.end - s.t) / dt;
+  const Real left = forecast_.seconds_left(watch_.seconds(), s.t, case_.time.end);
   std::printf(
       "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
-      "%.0f s\n",
+      "%s\n",
       static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_,
       record_.drift(), solver_.report().pressure_iterations, solver_.report().velocity_iterations,
-      watch_.seconds() / done * rest);
+      Forecast::text(left).c_str());
   std::fflush(stdout);
 }
 

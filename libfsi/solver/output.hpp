@@ -79,6 +79,7 @@ class Output {
   std::optional<io::Table> flow_, solid_;
   std::optional<io::FieldWriter> fields_;
   Stopwatch watch_;
+  Forecast forecast_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
   std::map<std::string, Real> limits_;  // steps by what set their length

@@ -162,7 +162,31 @@ class Solver {
   /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
   /// (solenoidal.hpp); owned and halo.
   void set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells);
-  std::string objection(Real dt) const;
+  /// What may end a step: the equation whose limit is passed, or what was thrown.
+  enum class Term {
+    none,
+    convection,
+    pressure,
+    transport,
+    fraction,
+    elasticity,
+    strain,
+    eigenvalue,
+    solve
+  };
+  struct Objection {
+    std::string reason{};
+    Term term = Term::none;
+  };
+  /// Against what a step of dt leaves behind; empty where there is nothing.
+  Objection objection(Real dt) const;
+  /// Where the state as it stands is worst in that respect: a sentence with figure, place and cell.
+  std::string diagnosis(Term term, Real dt);
+  std::string diagnosis_of_solid(Term term, Real dt);
+  template <class Figure>
+  std::string at_worst(const Figure& figure, const char* what, const char* why) const;
+  /// What holds a step as short as dt.
+  Term holder(Real dt) const;
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }

@@ -8,6 +8,7 @@ MESHES = {
     "cavity": ("cavity", 2, {"n": 6}),
     "box": ("box", 2, {"n": 6, "lz": 0}),
     "thin": ("box", 2, {"n": 6, "nx": 2, "lz": 0}),
+    "one": ("cavity", 2, {"n": 1}),
     "shear": ("shear", 2, {"n": 4, "H": 8}),
     "pipe": ("pipe", 3, {"n": 4, "length": 1}),
 }
@@ -16,9 +17,11 @@ MESHES = {
 class Case:
     """A run that must fail. `mesh` names a good mesh, `damage` what is done to it."""
 
-    def __init__(self, name, driver, arguments, *fragments, mesh="cavity", damage=None, yaml=None):
+    def __init__(self, name, driver, arguments, *fragments, mesh="cavity", damage=None, yaml=None,
+                 size=None):
         self.name, self.driver, self.fragments = name, driver, fragments
         self.words, self.mesh, self.damage, self.yaml = arguments, mesh, damage, yaml
+        self.size = size  # of the damaged file: it goes on with a hole up to there
 
     def arguments(self, made, folder):
         words = list(self.words)
@@ -30,6 +33,8 @@ class Case:
                 path = os.path.join(folder, self.name.replace(" ", "-") + ".msh")
                 with open(path, "w", encoding="utf-8") as file:
                     file.write(text)
+                if self.size:
+                    os.truncate(path, self.size)
             words = ["-mesh", path] + words
         if self.yaml is not None:
             path = os.path.join(folder, self.name.replace(" ", "-") + ".yaml")
@@ -43,8 +48,8 @@ def option(name, arguments, *fragments, driver="fsi-cavity", **more):
     return Case(name, driver, arguments.split(), *fragments, **more)
 
 
-def mesh(name, damage, *fragments, driver="fsi-cavity", arguments="", of="cavity"):
-    return Case(name, driver, arguments.split(), *fragments, mesh=of, damage=damage)
+def mesh(name, damage, *fragments, driver="fsi-cavity", arguments="", of="cavity", size=None):
+    return Case(name, driver, arguments.split(), *fragments, mesh=of, damage=damage, size=size)
 
 
 OPTIONS = [
@@ -98,6 +103,15 @@ OPTIONS = [
     option("nothing to restart from", "-restart -output_dir out/nothing", "no checkpoint",
            "out/nothing"),
     option("yaml key twice", "", "twice", yaml="time_end: 1\ntime_end: 2\n"),
+    option("command unknown", "chek a.msh", "\"chek\"", "check in.msh", driver="fsi-mesh", mesh=None),
+    option("command missing", "", "command is missing", "check in.msh", driver="fsi-mesh", mesh=None),
+    option("command without its file", "check", "check in.msh", "0 words", driver="fsi-mesh", mesh=None),
+    option("command's option misspelt", "check a.msh -wals wall", "-wals", "-walls", driver="fsi-mesh",
+           mesh=None),
+    option("command's file not there", "check nowhere.msh", "nowhere.msh", "cannot be opened",
+           driver="fsi-mesh", mesh=None),
+    option("file of worst cells of another kind", "check a.msh -worst_file a.vtu", "-worst_file", ".hdf",
+           driver="fsi-mesh", mesh=None),
     option("no mesh", "", "-mesh", mesh=None),
     option("mesh not there", "-mesh nowhere.msh", "nowhere.msh", "cannot be opened", mesh=None),
     option("mesh a folder", "-mesh .", "\".\"", "is a folder", mesh=None),
@@ -121,6 +135,11 @@ MESH = [
     mesh("node infinite", f.node(20, 0, "inf"), "node"),
     mesh("node a word", f.node(20, 0, "left"), "left"),
     mesh("unknown node", f.elements(f.unknown_node), "999999"),
+    mesh("count beyond all files", f.announced("Nodes", "1000000000000000"), "1000000000000000 nodes announced"),
+    mesh("file larger than memory", lambda text: text, "larger-than-memory.msh", "4.4 TB", "GB of memory", size=2**42),
+    mesh("edge collapsed", f.collapsed, "collapsed edge", "nodes", "same place"),
+    mesh("mesh folded", f.folded, "same side", "folded on itself"),
+    mesh("one cell", None, "only one cell", of="one"),
     mesh("cell tangled", f.elements(f.tangled), "cell"),
     mesh("node repeated", f.elements(f.repeated_node), "node"),
     mesh("cell duplicate", f.elements(f.duplicate), "cell"),

@@ -105,6 +105,42 @@ def non_manifold(chosen):
     return chosen + [["999999", "2"] + chosen[0][2:first] + chosen[0][first:first + 2] + [far]]
 
 
+def folded(text):
+    """A copy of the first cell of a 2-D mesh, with its far nodes elsewhere, on the same side of an edge."""
+    parts = sections(text)
+    words = next(line.split() for line in parts["Elements"][1:] if line.split()[1] == "3")
+    first, nodes = corners(words), {line.split()[0]: line.split()[1:] for line in parts["Nodes"][1:]}
+    a, b, c, d = words[first:]
+    middle = [sum(float(nodes[n][k]) for n in (a, b, c, d)) / 4 for k in range(3)]
+    for number, far in (("999998", c), ("999999", d)):
+        inner = [(x + float(y)) / 2 for x, y in zip(middle, nodes[far])]
+        parts["Nodes"].append(" ".join([number, *map(str, inner)]))
+    parts["Nodes"][0] = str(len(parts["Nodes"]) - 1)
+    parts["Elements"].append(" ".join(["999999", *words[1:first], a, b, "999998", "999999"]))
+    parts["Elements"][0] = str(len(parts["Elements"]) - 1)
+    return joined(parts)
+
+
+def collapsed(text):
+    """The second node of the first quad moved onto the first."""
+    parts = sections(text)
+    words = next(line.split() for line in parts["Elements"][1:] if line.split()[1] == "3")
+    a, b = words[corners(words):][:2]
+    place = next(line.split()[1:] for line in parts["Nodes"][1:] if line.split()[0] == a)
+    parts["Nodes"][1:] = [" ".join([b, *place]) if line.split()[0] == b else line
+                          for line in parts["Nodes"][1:]]
+    return joined(parts)
+
+
+def announced(section, count):
+    """A section whose head claims that many items."""
+    def damage(text):
+        parts = sections(text)
+        parts[section][0] = count
+        return joined(parts)
+    return damage
+
+
 def dropped(chosen):
     return chosen[1:]
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "libfsi/core/memory.hpp"
+
 namespace fsi {
 namespace {
 
@@ -45,6 +47,34 @@ TEST(Clock, ResumeForgetsWhatLiesBefore) {
   event.resume(1.2);
   EXPECT_FALSE(event.due(1.3));
   EXPECT_TRUE(event.due(1.5));
+}
+
+TEST(Forecast, GoesByTheTimeGainedAndNotByTheLastStep) {
+  Forecast forecast(2);
+  EXPECT_DOUBLE_EQ(forecast.seconds_left(10, 3, 12), 90) << "0.1 a second";
+  EXPECT_DOUBLE_EQ(forecast.seconds_left(20, 6, 12), 30) << "0.3 and 0.1: 0.2";
+  EXPECT_DOUBLE_EQ(forecast.seconds_left(30, 6, 12), 60) << "slower and slower";
+  EXPECT_DOUBLE_EQ(forecast.seconds_left(30, 6, 12), 60) << "at once";
+  EXPECT_DOUBLE_EQ(forecast.seconds_left(40, 12, 12), 0);
+  Forecast stuck;
+  EXPECT_EQ(Forecast::text(stuck.seconds_left(1, 0, 1)), "more than 10 days");
+}
+
+TEST(Forecast, IsNeverAnAbsurdNumber) {
+  EXPECT_EQ(Forecast::text(0), "0 s");
+  EXPECT_EQ(Forecast::text(59.6), "60 s");
+  EXPECT_EQ(Forecast::text(863999), "863999 s");
+  EXPECT_EQ(Forecast::text(1e6), "more than 10 days");
+  EXPECT_EQ(Forecast::text(1e30), "more than 10 days");
+  EXPECT_EQ(Forecast::text(std::numeric_limits<Real>::quiet_NaN()), "more than 10 days");
+}
+
+TEST(Memory, IsThatOfThisMachineInReadableUnits) {
+  EXPECT_GT(memory_limit(), 1'000'000u);
+  EXPECT_EQ(text_of_bytes(999), "999 bytes");
+  EXPECT_EQ(text_of_bytes(1500), "1.5 kB");
+  EXPECT_EQ(text_of_bytes(250'000'000), "250 MB");
+  EXPECT_EQ(text_of_bytes(1ull << 42), "4.4 TB");
 }
 
 }  // namespace

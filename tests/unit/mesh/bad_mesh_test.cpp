@@ -61,6 +61,13 @@ std::string without_sides(const std::string& text) {
   return result;
 }
 
+/// Two tets above one triangle, one within the other.
+std::string folded_tets() {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+         "5 .2 .2 .3\n$EndNodes\n$Elements\n2\n1 4 2 9 9 1 2 3 4\n2 4 2 9 9 2 3 1 "
+         "5\n$EndElements\n";
+}
+
 struct Fault {
   std::string name, text, sentence;
   std::vector<std::string> periodic{};
@@ -79,6 +86,8 @@ std::vector<Fault> faults_of_the_file() {
       {"word for number", with_node(good, "6", "0.3 0.3 up"), "expected a number, found \"up\""},
       {"fraction for count", with(good, "16\n", "16.5"), "expected a whole number, found \"16.5\""},
       {"count too high", with(good, "16\n", "16000"), "16000 nodes announced"},
+      {"count beyond all files", with(good, "16\n", "1000000000000000"),
+       "1000000000000000 nodes announced, but the file ends before them"},
       {"count too low", with(good, "16\n", "15"), "expected $EndNodes, found \"16\""},
       {"unknown node", with_element(good, "13", "3 2 9 9 1 2 6 99"),
        "element 13 names node 99, which the file does not define"},
@@ -99,6 +108,14 @@ std::vector<Fault> faults_of_cells() {
       {"out of plane", with_node(good, "6", "0.3 0.3 0.1"), "do not lie in one plane z = const"},
       {"repeated node", with_element(good, "13", "3 2 9 9 1 2 6 6"),
        "element 13 names node 6 twice"},
+      {"collapsed edge", with_node(good, "2", "0 0 0"),
+       "element 13 has a collapsed edge: its nodes 1 and 2 lie at the same place (0, 0, 0)"},
+      {"collapsed edge of a hex", with_node(hexes(), "2", "0 0 1e-12"),
+       "collapsed edge: its nodes 1 and 2 lie"},
+      {"folded edge", with_more(good, {"0 0.2 0", "0.3 0.2 0"}, {"3 2 9 9 1 2 18 17"}),
+       "elements 13 and 22 share the face at (0.166667, 0, 0) and lie on the same side of it"},
+      {"folded face", folded_tets(), "elements 1 and 2 share the face at (0.333333, 0.333333, 0)"},
+      {"one cell", quads(1, 1), "has only one cell, element 5"},
       {"flat", with_element(triangles(), "13", "2 2 9 9 1 2 3"),
        "element 13 at (0.333333, 0, 0) has no volume"},
       {"inverted", with_element(good, "13", "3 2 9 9 1 5 6 2"),

@@ -18,6 +18,7 @@
 #include "libfsi/mesh/check.hpp"
 #include "libfsi/mesh/gmsh.hpp"
 #include "libfsi/mesh/metrics.hpp"
+#include "libfsi/mesh/quality.hpp"
 #include "libfsi/mesh/read.hpp"
 
 namespace fsi::test {

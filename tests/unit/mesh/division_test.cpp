@@ -149,7 +149,7 @@ TEST(Division, LengthwiseEveryRankHasCellsAllAlong) {
 
 TEST(Division, FewerCellsThanRanks) {
   Block block;
-  block.n = {1, 1, 1};
+  block.n = {2, 1, 1};
   compare(block, 0);
   block.type = CellType::quad, block.n = {2, 1, 1};
   compare(block, 0);

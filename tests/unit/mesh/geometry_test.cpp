@@ -166,9 +166,9 @@ TEST(Quality, OfAShearedGrid) {
   block.type = CellType::quad, block.n = {6, 6, 1};
   block.moved = [](const Vec3& x) { return Vec3{x.x + x.y, x.y, 0}; };  // 45 degrees
   const Quality q = quality(block_mesh(block, {}));
-  EXPECT_NEAR(q.non_orthogonality_max, 45, 1e-10);
+  EXPECT_NEAR(q.non_orthogonality.value, 45, 1e-10);
   EXPECT_NEAR(q.non_orthogonality_mean, 45, 1e-10);
-  EXPECT_NEAR(q.skewness_max, 0, 1e-12);
+  EXPECT_NEAR(q.skewness.value, 0, 1e-12);
   EXPECT_NEAR(q.volume_min, 1.0 / 36, 1e-15);
   EXPECT_NEAR(q.volume_max, 1.0 / 36, 1e-15);
 }

@@ -1,0 +1,36 @@
+#pragma once
+// What every VTKHDF file of ours has in common, and one that stands alone.
+
+#include <span>
+#include <string>
+
+#include "libfsi/io/hdf5.hpp"
+#include "libfsi/io/vtk_mesh.hpp"
+
+namespace fsi::io {
+
+/// Makes /VTKHDF a group that VTK reads as an unstructured grid, format 1.0.
+void head_vtk(Hdf5Image& image);
+
+/// The mesh's datasets in /VTKHDF, and about how many bytes they take.
+void add(Hdf5Image& image, const VtkMesh& mesh);
+std::size_t bytes_of(const VtkMesh& mesh);
+
+/// One rank. Puts the image where `path` is; returns the reason it failed, "" when it did not.
+std::string put(const std::string& path, Hdf5Image& image);
+
+/// Collective. Rank 0's reason becomes everybody's Error{io} that names the file.
+void agree(const std::string& file, const std::string& reason);
+
+/// A figure of each of the cells that are written.
+struct CellFigure {
+  std::string name;
+  std::span<const Real> values;  ///< [owned cells]
+};
+
+/// Collective. Some of the owned cells of each rank with their figures and `cell`, the number in
+/// the mesh file (from 0), as one file that ParaView opens by itself. Errors: Error{io}.
+void write_cells(const std::string& path, const Mesh& mesh, std::span<const Index> cells,
+                 std::span<const CellFigure> figures);
+
+}  // namespace fsi::io

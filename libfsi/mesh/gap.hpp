@@ -1,0 +1,29 @@
+#pragma once
+// How many cells lie across the narrowest passage of a mesh.
+
+#include <string>
+#include <vector>
+
+#include "libfsi/mesh/mesh.hpp"
+
+namespace fsi {
+
+/// The narrowest passage between two walls, counted in cells.
+struct Gap {
+  Real cells = 0;        ///< 0: no wall faces another one
+  Real width = 0;        ///< its length, from wall to wall
+  Vec3 x{};              ///< the middle of it
+  std::string from, to;  ///< the patches on either side
+};
+
+/// Collective. From the centre of every face of the patches `walls` (none given: of every patch) a
+/// line goes along the inward normal until it leaves the mesh. It counts where it leaves through a
+/// face of one of them whose normal is within 45 degrees of it: so corners do not count. Its cells
+/// are
+///   sum over the cells it crosses of (length within the cell) / (extent of the cell along it),
+/// the extent from the first to the last corner: in a block of n bricks from wall to wall it is n.
+/// The result is the line with the fewest cells. Lines of more than a thousand cells do not count.
+/// Errors: Error{input} for an unknown patch.
+Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls = {});
+
+}  // namespace fsi

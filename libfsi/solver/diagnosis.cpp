@@ -1,0 +1,122 @@
+// Where a state is at its worst, when a run cannot go on: figure, place, cell and the term that
+// asks for a shorter step.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "libfsi/core/eigen.hpp"
+#include "libfsi/mesh/quality.hpp"
+#include "libfsi/solver/mesh_figures.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+/// The figure of every owned cell, 0 or more; not a number counts as infinite.
+template <class Figure>
+std::vector<Real> figures(const Mesh& mesh, const Figure& figure) {
+  std::vector<Real> values(static_cast<std::size_t>(mesh.n_owned));
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Real value = figure(c);
+    values[c] = std::isfinite(value) ? value : std::numeric_limits<Real>::max();
+  }
+  return values;
+}
+
+/// Collective. "at (x, y, z) in a tet of aspect ratio 40 (skewness ..., ...)".
+std::string place(const Worst& w, const Mesh& mesh) {
+  const CellQuality cells = cell_quality(mesh);
+  const Real aspect = value_at(cells.aspect_ratio, w.cell, mesh),
+             angle = value_at(cells.non_orthogonality, w.cell, mesh),
+             skewness = value_at(cells.skewness, w.cell, mesh),
+             ratio = value_at(cells.volume_ratio, w.cell, mesh);
+  return print(
+      "at (%.5g, %.5g, %.5g) in a %s of aspect ratio %.3g (non-orthogonality %.3g deg, "
+      "skewness %.3g, volume ratio %.3g)",
+      w.x.x, w.x.y, w.x.z, name_of(w.type), aspect, angle, skewness, ratio);
+}
+
+Real size_of(const Tensor& L) {
+  return std::sqrt(L.xx * L.xx + L.xy * L.xy + L.xz * L.xz + L.yx * L.yx + L.yy * L.yy +
+                   L.yz * L.yz + L.zx * L.zx + L.zy * L.zy + L.zz * L.zz);
+}
+
+}  // namespace
+
+template <class Figure>
+std::string Solver::at_worst(const Figure& figure, const char* what, const char* why) const {
+  const Worst w = worst(figures(mesh_, figure), mesh_, 1).front();
+  return what + print(" is %.3g ", w.value) + place(w, mesh_) + (*why != 0 ? ": " : "") + why;
+}
+
+Solver::Term Solver::holder(Real dt) const {
+  Real most = dt / advective_dt(1);
+  Term term = Term::convection;
+  if (!body_) return term;
+  if (const Real part = dt / elastic_dt(); part > most) most = part, term = Term::elasticity;
+  constexpr Real strain = 0.5;
+  if (const Real part = dt / strain_dt(strain); part > most) term = Term::strain;
+  return term;
+}
+
+std::string Solver::diagnosis(Term term, Real dt) {
+  if (term == Term::pressure) {
+    flow::divergence(divergence_, state_.phi, mesh_);
+    return at_worst([&](Index c) { return dt * std::abs(divergence_[c]) / mesh_.V[c]; },
+                    "the largest change of volume that the pressure leaves, in parts of the cell,",
+                    "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
+  }
+  if (term != Term::convection && term != Term::solve) return diagnosis_of_solid(term, dt);
+  const auto courant = [&](Index c) { return dt * flow::courant_rate(state_.phi, mesh_, c); };
+  const auto lost = [&](Index c) {
+    Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);
+    for (const Index f : mesh_.cell_faces[c])
+      if (f >= mesh_.n_internal) sum += norm2(u_b_new_[f - mesh_.n_internal]);
+    return std::isfinite(sum) ? 0.0 : 1.0;
+  };
+  if (const Worst w = worst(figures(mesh_, lost), mesh_, 1).front(); w.value > 0)
+    return "the first value that is not finite is " + place(w, mesh_);
+  const Worst speed =
+      worst(figures(mesh_, [&](Index c) { return norm(state_.u[c]); }), mesh_, 1).front();
+  return at_worst(courant, "the largest Courant number",
+                  term == Term::solve ? "" : "convection limits") +
+         print("; the largest speed is %.3g at (%.5g, %.5g, %.5g)", speed.value, speed.x.x,
+               speed.x.y, speed.x.z);
+}
+
+std::string Solver::diagnosis_of_solid(Term term, Real dt) {
+  // The solid's figures are of the cells that hold some of it.
+  const auto of_solid = [&](const auto& figure) {
+    return [&](Index c) { return body_->alpha[c] > 0 ? figure(c) : 0; };
+  };
+  const auto courant = [&](Index c) {
+    return solid_dt_ * flow::courant_rate(state_.phi, mesh_, c);
+  };
+  const auto waves = [&](Index c) {
+    return dt / solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, {&c, 1});
+  };
+  const auto crushed = [&](Index c) {
+    return 1 / std::max(eigen(body_->B[c]).value[0], std::numeric_limits<Real>::min());
+  };
+  switch (term) {
+    case Term::transport:
+      return at_worst(of_solid(courant), "the largest Courant number of the solid's step",
+                      "the transport of the solid limits");
+    case Term::fraction:
+      return at_worst([&](Index c) { return std::max(body_->alpha[c] - 1, -body_->alpha[c]); },
+                      "the largest excess of the fraction", "the transport of the solid limits");
+    case Term::elasticity:
+      return at_worst(of_solid(waves), "the largest number of cells that the elastic wave passes",
+                      "the solid's stiffness limits");
+    case Term::strain:
+      return at_worst(of_solid([&](Index c) { return size_of(L_[c]); }),
+                      "the largest velocity gradient in the solid", "its rate of strain limits");
+    default:
+      return at_worst(of_solid(crushed), "the largest inverse of an eigenvalue of B",
+                      "the solid is crushed there");
+  }
+}
+
+}  // namespace fsi

@@ -1,0 +1,47 @@
+#pragma once
+// What a mesh is like in a line, and where it goes past what the solver is known to like.
+
+#include <string>
+#include <vector>
+
+#include "libfsi/mesh/gap.hpp"
+#include "libfsi/mesh/quality.hpp"
+
+namespace fsi {
+
+/// Past these a driver warns and fsi-mesh check advises. The shipped geometries in tets that gmsh
+/// has optimised reach 70 degrees, 1.4, 7 and 6.3; as they come, slivers among them, 86
+/// degrees, 1.8, 400 and 660. The tested flows complete on those too
+/// (doc/verification/tetrahedra.md), but such cells take from accuracy and length of the step.
+struct MeshLimits {
+  Real non_orthogonality = 75, skewness = 2, volume_ratio = 20, aspect_ratio = 25;
+  Real gap = 6;  ///< cells across the narrowest passage, at least
+};
+
+/// The figures of a mesh as a whole.
+struct MeshFigures {
+  Quality quality;
+  Gap gap;
+};
+
+/// Collective. walls: between which patches the gap is measured (mesh/gap.hpp); none: all.
+MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls);
+
+/// What is past a limit: figure, limit and place in words, and what to change in gmsh.
+struct Finding {
+  std::string what, change;
+};
+
+/// In the order non-orthogonality, skewness, volume ratio, aspect ratio, gap.
+std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limits = {});
+
+/// One line: cells, ranks, the figures.
+std::string summary(const std::string& file, const Mesh& mesh, const MeshFigures& figures);
+
+/// The findings in one sentence that names fsi-mesh check; "" where there are none.
+std::string warning(const std::string& file, const std::vector<Finding>& found);
+
+/// printf into a string.
+std::string print(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+}  // namespace fsi
