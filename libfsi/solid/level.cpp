@@ -8,11 +8,11 @@ Level::Level(const Mesh& mesh, const FaceWeights& weights)
 }
 
 void Level::clear() {
-  for (const Index f : faces_) {
-    const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
-    first_[P] = whole_[P] = first_[N] = whole_[N] = {};
-  }
-  for (const Index c : cells_) whole_[c] = {};
+  for (const std::vector<Index>* faces : {&faces_, &reached_})
+    for (const Index f : *faces) {
+      const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
+      first_[P] = whole_[P] = first_[N] = whole_[N] = {};
+    }
   faces_.clear();
 }
 
@@ -55,12 +55,12 @@ void Level::apply(CellField<Vec3>& force, FaceField<Real>& balance, PressureSten
   if (around_) around_->rebuild(of_rises.listed(), listed);
   const Band& band = around_ ? *around_ : of_rises;
   mesh_.halo.update(first_);  // all of it: cells beyond the band have a part of the outermost rises
-  cells_ = band.cells();
+  reached_ = band.faces();
   pressure.at_faces.set(at_faces_, first_, band);
   add_irregular(stencil, band);
   for (std::size_t i = 0; i < stencil.closed.size(); ++i) {
-    Vec3& own = whole_[stencil.closed_cells[i]];
-    own = dot(stencil.closed[i], own);
+    const Index c = stencil.closed_cells[i];
+    if (band.listed()[c] != 0) whole_[c] = dot(stencil.closed[i], whole_[c]);
   }
   mesh_.halo.update(whole_);
   for (const Index c : band.cells()) force[c] += whole_[c];

@@ -41,7 +41,7 @@ class Level {
   CellField<Vec3> first_, whole_;  // l and L
   std::vector<Vec3> at_faces_;     // l at irregular faces
   std::vector<Index> faces_;       // with a rise
-  std::vector<Index> cells_;       // of the last band, with those around it
+  std::vector<Index> reached_;     // faces of the last band, whose cells may have a part
   std::optional<Band> around_;     // the band with these, on irregular meshes
 };
 
