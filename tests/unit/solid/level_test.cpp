@@ -40,5 +40,44 @@ TEST(Level, IsMadeAnewEachTime) {
   EXPECT_TRUE(all_of_ranks(same));
 }
 
+/// The force of rises around the last point of a way along x, by a level that has gone it all.
+CellField<Vec3> after_a_way(const Mesh& mesh, const std::vector<Real>& way) {
+  const FaceWeights weights(mesh);
+  PressureStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
+  Band band(mesh);
+  solid::Level level(mesh, weights);
+  CellField<Vec3> force(mesh);
+  for (const Real at : way) {
+    CellField<Real> here(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) here[c] = std::abs(mesh.C[c].x - at) < 0.1 ? 1 : 0;
+    band.rebuild(here, 0.5);
+    FaceField<Real> balance(mesh);
+    force.fill({});
+    level.clear();
+    for (const Index f : band.faces())
+      if (f < mesh.n_internal && std::abs(mesh.Cf[f].x - at) < 0.1)
+        level.add(f, 1 + mesh.Cf[f].y, stencil.cells);
+    level.apply(force, balance, stencil, band);
+  }
+  return force;
+}
+
+// A band that moves on, along walls, leaves nothing behind, on bent quads and on triangles.
+TEST(Level, ForgetsWhereItsBandWas) {
+  for (const bool simplex : {false, true}) {
+    test::BoxFile box{.n = {24, 8, 0}, .length = {2, 1, 1}, .simplex = simplex};
+    box.moved = [](const Vec3& x) {
+      const Real inside = x.x * (2 - x.x) * x.y * (1 - x.y);
+      return x + (0.3 * inside * std::sin(20 * x.x + 30 * x.y)) * Vec3{1, -1, 0};
+    };
+    const Mesh mesh = test::read_box(box);
+    const CellField<Vec3> fresh = after_a_way(mesh, {1.4}),
+                          moved = after_a_way(mesh, {0.4, 0.6, 0.8, 1, 1.2, 1.3, 1.6, 1.4});
+    bool same = true;
+    for (Index c = 0; c < mesh.n_owned; ++c) same = same && fresh[c] == moved[c];
+    EXPECT_TRUE(all_of_ranks(same));
+  }
+}
+
 }  // namespace
 }  // namespace fsi
