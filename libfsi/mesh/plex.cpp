@@ -98,7 +98,7 @@ Plex serial_plex(const CellList& whole) {
 }
 
 /// The plex divided, with its overlap, and for each of its points the one of rank 0 it comes from.
-std::pair<Plex, StarForest> divide(Plex serial, const Parts& parts) {
+std::pair<Plex, StarForest> migrate(Plex serial, const Parts& parts) {
   PetscPartitioner part = nullptr;
   FSI_PETSC(DMPlexGetPartitioner(serial, &part));
   FSI_PETSC(PetscPartitionerSetType(part, PETSCPARTITIONERSHELL));
@@ -245,7 +245,8 @@ void broadcast_common(const CellList& whole, CellList& mine) {
 
 }  // namespace
 
-CellList distribute(CellList whole, const std::string& partitioner, const Vec3& along) {
+CellList distribute(CellList whole, const Division& how) {
+  const std::string& partitioner = how.partitioner;
   require(partitioner == "metis" || partitioner == "ptscotch" || partitioner == "simple",
           "partitioner \"" + partitioner + "\" unknown; there are: metis, ptscotch, simple");
   if (ranks() == 1) return whole;
@@ -254,8 +255,7 @@ CellList distribute(CellList whole, const std::string& partitioner, const Vec3& 
   whole.dim = mine.dim;
   Share share;
   {
-    const auto [plex, origin] =
-        divide(serial_plex(whole), partition_cells(whole, partitioner, along));
+    const auto [plex, origin] = migrate(serial_plex(whole), partition_cells(whole, how));
     share = share_of(plex, origin);
   }
   pull_cells(whole, share.file_cell, mine);

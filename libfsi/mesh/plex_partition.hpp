@@ -3,10 +3,10 @@
 
 #include <petscsys.h>
 
-#include <string>
 #include <vector>
 
 #include "libfsi/mesh/cell_list.hpp"
+#include "libfsi/mesh/plex.hpp"
 
 namespace fsi {
 
@@ -17,12 +17,8 @@ struct Parts {
 };
 
 /// Collective. Divides the graph of cells that share a face (across a period too), which lies on
-/// rank 0, with a partitioner of PETSc: metis (ours), ptscotch or simple. metis avoids cuts across
-/// the direction `along` (zero: none): parts up to about `slender` times as long as wide cost no
-/// more than compact ones.
-Parts partition_cells(const CellList& whole, const std::string& partitioner, const Vec3& along);
-
-/// Weight of a face across `along` against one beside it.
-inline constexpr int slender = 8;
+/// rank 0: metis by `divide`, with the load and the direction of `how`; ptscotch and simple, which
+/// are PETSc's, without.
+Parts partition_cells(const CellList& whole, const Division& how);
 
 }  // namespace fsi

@@ -36,7 +36,8 @@ void on_first_rank(const Work& work) {
 Mesh read_mesh(const MeshOptions& options) {
   CellList whole;
   on_first_rank([&] { whole = check_mesh(read_gmsh(options.file), options.periodic); });
-  return build_mesh(distribute(std::move(whole), options.partitioner, options.along));
+  return build_mesh(
+      distribute(std::move(whole), {options.partitioner, options.along, options.load}));
 }
 
 }  // namespace fsi

@@ -1,6 +1,7 @@
 #pragma once
 // From a gmsh file to a distributed Mesh.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct MeshOptions {
       periodic;  ///< pairs of physical names joined by translation: a, b[, c, d ...]
   std::string partitioner = "metis";  ///< or ptscotch, simple
   Vec3 along = {};                    ///< direction that metis avoids to cut across; zero: none
+  /// Work of the cell at this centre beyond that of a fluid cell, in any unit: metis gives every
+  /// rank its share of it, and its share of the cells besides. Empty: none.
+  std::function<Real(const Vec3&)> load = {};
 };
 
 /// Collective. Reads, checks, partitions and flattens the mesh. Errors: Error{input}, one sentence

@@ -104,6 +104,15 @@ std::map<std::string, std::string> lines(const std::string& text) {
   return items;
 }
 
+/// Collective. Cells with their centre in the solid: the most a rank holds over the mean; 0: none.
+Real solid_share(const Mesh& mesh, const shapes::Shape& shape) {
+  const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
+  const auto mine = std::ranges::count_if(centres, [&](const Vec3& x) { return shape(x) < 0; });
+  const GlobalIndex total = global_sum(static_cast<GlobalIndex>(mine));
+  const Real most = global_max(static_cast<Real>(mine));
+  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+}
+
 /// Whether an option tells of the solid's shape and place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
@@ -119,6 +128,12 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.physics = read_physics(options);
   result.flow = read_flow(options);
   result.solid = read_solid(options, result.physics);
+  // What the solid costs is spent in its cells and those its surface cuts; these too are counted
+  // by a margin, as nothing is known of their size here.
+  constexpr Real margin = 0.1;
+  if (result.solid.shape)
+    result.mesh.load = [shape = *result.solid.shape, reach = margin * result.solid.thickness](
+                           const Vec3& x) { return shape(x) < reach ? 1.0 : 0.0; };
   result.time = read_time(options);
   result.output = read_output(options, driver);
   require(options.help() || !result.mesh.file.empty(),
@@ -161,12 +176,14 @@ std::string differences(const std::string& before, const std::string& now) {
 
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
   const Quality q = quality(mesh);
+  const Real share = ranks() > 1 && which.solid.shape ? solid_share(mesh, *which.solid.shape) : 0;
   if (rank() != 0) return;
   std::printf(
       "mesh %s: %lld cells in %d-D on %d ranks; non-orthogonality max %.1f mean %.1f deg, skewness "
       "max %.3f\n",
       which.mesh.file.c_str(), static_cast<long long>(mesh.n_global), mesh.dim, ranks(),
       q.non_orthogonality_max, q.non_orthogonality_mean, q.skewness_max);
+  if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = which.physics;
   std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
               length, velocity);
