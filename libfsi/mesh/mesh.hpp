@@ -67,9 +67,12 @@ struct Mesh {
   std::vector<std::int8_t> cell_neighbour_shift;
 
   // points
-  std::vector<Vec3> points;   ///< corners of owned and halo cells
-  Csr cell_points;            ///< [n_cells] corners, in the order of the gmsh format
-  std::vector<Index> vertex;  ///< [points] the same number for points joined by a period
+  std::vector<Vec3> points;     ///< corners of owned and halo cells
+  Csr cell_points;              ///< [n_cells] corners, in the order of the gmsh format
+  std::vector<Index> vertex;    ///< [points] the same number for points joined by a period
+  std::vector<Index> point_id;  ///< [points] position of the point in the mesh file, from 0
+  std::vector<Index>
+      vertex_id;  ///< [points] that of the one point all joined by a period stand for
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
 
   Halo halo;
