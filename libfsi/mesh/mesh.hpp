@@ -1,12 +1,15 @@
 #pragma once
 // The mesh as kernels see it: flat arrays, filled once, never changed.
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "libfsi/core/types.hpp"
 #include "libfsi/mesh/halo.hpp"
+
+struct _p_DM;  // PETSc's: its DM is a _p_DM*
 
 namespace fsi {
 
@@ -95,6 +98,16 @@ struct Mesh {
   }
   /// The patch of that name; throws Error{input} that lists the names of the mesh.
   const Patch& patch(const std::string& name) const;
+
+  /// Collective at its first call, which makes it: the mesh as a DMPlex of PETSc, which this owns.
+  /// Cell c < n_owned is cell c of the DM; on more than one rank the cells that share a vertex with
+  /// one of them follow as overlap. Faces and edges are there; the label "Face Sets" holds 1 + its
+  /// patch on a boundary face, a label of the patch's name the same. Points joined by a period are
+  /// one vertex, and cells at the seam have coordinates of their own (DMGetCellCoordinates).
+  _p_DM* dm() const;
+
+ private:
+  mutable std::shared_ptr<_p_DM> plex_;
 };
 
 }  // namespace fsi

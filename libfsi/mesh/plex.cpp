@@ -174,6 +174,9 @@ CellList distribute(CellList slab, const Division& how) {
     slab.point_id.resize(slab.points.size());
     std::iota(slab.point_id.begin(), slab.point_id.end(), 0);
     slab.vertex_id = slab.vertex;
+    slab.n_owned = slab.n_cells();
+    slab.global_id.resize(slab.types.size());
+    std::iota(slab.global_id.begin(), slab.global_id.end(), 0);
     return slab;
   }
   CellList mine;
