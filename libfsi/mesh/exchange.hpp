@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
@@ -12,9 +13,16 @@
 
 namespace fsi {
 
-/// Collective. to[r] goes to rank r; returns what each rank sent here. T is copied as bytes.
+/// What came from every rank: items[begin[r]] .. items[begin[r + 1]] from rank r.
 template <class T>
-std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to) {
+struct Received {
+  std::vector<T> items;
+  std::vector<int> begin;
+};
+
+/// Collective. to[r] goes to rank r. T is copied as bytes.
+template <class T>
+Received<T> exchange(std::vector<std::vector<T>> to) {
   const auto n = static_cast<std::size_t>(ranks());
   std::vector<int> sent(n), received(n), sent_at(n + 1, 0), received_at(n + 1, 0);
   for (std::size_t r = 0; r < n; ++r) sent[r] = static_cast<int>(to[r].size());
@@ -22,20 +30,20 @@ std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& to) {
   for (std::size_t r = 0; r < n; ++r) {
     sent_at[r + 1] = sent_at[r] + sent[r], received_at[r + 1] = received_at[r] + received[r];
   }
-  std::vector<T> out, in(static_cast<std::size_t>(received_at[n]));
+  std::vector<T> out;
   out.reserve(static_cast<std::size_t>(sent_at[n]));
-  for (const auto& items : to) out.insert(out.end(), items.begin(), items.end());
+  for (auto& items : to) {
+    out.insert(out.end(), items.begin(), items.end());
+    items = {};
+  }
+  std::vector<T> in(static_cast<std::size_t>(received_at[n]));
   MPI_Datatype item = MPI_DATATYPE_NULL;
   MPI_Type_contiguous(static_cast<int>(sizeof(T)), MPI_BYTE, &item);
   MPI_Type_commit(&item);
   MPI_Alltoallv(out.data(), sent.data(), sent_at.data(), item, in.data(), received.data(),
                 received_at.data(), item, comm());
   MPI_Type_free(&item);
-  std::vector<std::vector<T>> from(n);
-  for (std::size_t r = 0; r < n; ++r) {
-    from[r].assign(in.begin() + received_at[r], in.begin() + received_at[r + 1]);
-  }
-  return from;
+  return {std::move(in), std::move(received_at)};
 }
 
 /// Items 0, 1, 2 ... of which every rank holds a stretch, rank after rank.

@@ -68,74 +68,74 @@ std::vector<Beyond> matched(const std::vector<Side>& sides) {
   return answers;
 }
 
-/// The sides of this rank's cells, each on its way to the rank that holds its lowest vertex.
-std::vector<std::vector<Side>> sides_of(const CellList& here, const Stretches& cells,
-                                        const Stretches& vertices, const Vec3& axis) {
-  std::vector<std::vector<Side>> to(static_cast<std::size_t>(ranks()));
-  const bool tied = norm(axis) > 0;
-  for (Index c = 0; c < here.n_cells(); ++c) {
-    const Shape& shape = shape_of(here.types[c]);
-    for (int f = 0; f < shape.faces; ++f) {
-      Side side{{-1, -1, -1, -1}, cells.first() + c, 0};
-      std::size_t n = 0;
-      for (const std::int8_t i : shape.face_corners(f)) {
-        side.key[n++] = here.vertex_id[here.corners[c][i]];
-      }
-      const int holder = vertices.holder(*std::min_element(side.key.begin(), side.key.begin() + n));
-      std::ranges::sort(side.key);
-      if (tied) side.tie = weight_of(here, half_of(c, f), axis);
-      to[holder].push_back(side);
-    }
+/// A side as it is told, on its way to the rank that holds its lowest vertex.
+Side side_of(const CellList& here, Index half, Index first_cell) {
+  const Half h(half);
+  Side side{{-1, -1, -1, -1}, first_cell + h.cell, 0};
+  std::size_t n = 0;
+  for (const std::int8_t i : shape_of(here.types[h.cell]).face_corners(h.face)) {
+    side.key[n++] = here.vertex_id[here.corners[h.cell][i]];
   }
-  return to;
+  std::ranges::sort(side.key);
+  return side;
+}
+
+/// Collective. For each of the halves without a mate here the cell that has it elsewhere.
+std::vector<Beyond> sought(const CellList& here, const std::vector<Index>& halves,
+                           const Stretches& cells, Index n_vertices, const Vec3& axis) {
+  const Stretches vertices = Stretches::even(n_vertices);
+  std::vector<std::vector<Side>> to(static_cast<std::size_t>(ranks()));
+  std::vector<std::vector<std::size_t>> asked(to.size());
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    Side side = side_of(here, halves[i], cells.first());
+    if (norm(axis) > 0) side.tie = weight_of(here, halves[i], axis);
+    const int holder =
+        vertices.holder(*std::ranges::find_if(side.key, [](Index v) { return v >= 0; }));
+    to[holder].push_back(side), asked[holder].push_back(i);
+  }
+  const Received<Side> sides = exchange(std::move(to));
+  const std::vector<Beyond> found = matched(sides.items);
+  std::vector<std::vector<Beyond>> told;
+  for (std::size_t r = 0; r + 1 < sides.begin.size(); ++r) {
+    told.emplace_back(found.begin() + sides.begin[r], found.begin() + sides.begin[r + 1]);
+  }
+  const Received<Beyond> answers = exchange(std::move(told));
+  std::vector<Beyond> result(halves.size());
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    auto answer = answers.items.begin() + answers.begin[r];
+    for (const std::size_t i : asked[r]) result[i] = *answer++;
+  }
+  return result;
 }
 
 /// The graph of this rank's cells; ties where `along` is not zero, load where there is a function
-/// of it. The same whoever holds the cells.
+/// of it. Neighbours stand in the order of the faces: the same whoever holds the cells.
 Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, const Vec3& along,
                const CellLoad& load) {
   const bool tied = norm(along) > 0;
   const Vec3 axis = tied ? along / norm(along) : Vec3{};
-  const Stretches vertices = Stretches::even(n_vertices);
-  std::vector<std::vector<Beyond>> answers;
-  std::vector<std::vector<std::int32_t>> asked(static_cast<std::size_t>(ranks()));  // cells
-  {
-    const auto to = sides_of(here, cells, vertices, axis);
-    for (std::size_t r = 0; r < to.size(); ++r) {
-      for (const Side& side : to[r]) asked[r].push_back(side.cell - cells.first());
+  const std::vector<Index> mate = match_faces(here);
+  std::vector<Index> open;
+  for (Index c = 0; c < here.n_cells(); ++c) {
+    for (int f = 0; f < shape_of(here.types[c]).faces; ++f) {
+      if (mate[half_of(c, f)] < 0) open.push_back(half_of(c, f));
     }
-    const auto from = exchange(to);
-    std::vector<std::vector<Beyond>> told;
-    std::vector<Side> all;
-    for (const auto& sides : from) all.insert(all.end(), sides.begin(), sides.end());
-    const std::vector<Beyond> found = matched(all);
-    auto at = found.begin();
-    for (const auto& sides : from) {
-      told.emplace_back(at, at + static_cast<std::ptrdiff_t>(sides.size()));
-      at += static_cast<std::ptrdiff_t>(sides.size());
-    }
-    answers = exchange(told);
   }
+  const std::vector<Beyond> beyond = sought(here, open, cells, n_vertices, axis);
   Graph graph;
-  graph.start.assign(here.types.size() + 1, 0);
-  for (std::size_t r = 0; r < asked.size(); ++r) {
-    for (std::size_t i = 0; i < asked[r].size(); ++i) {
-      if (answers[r][i].cell >= 0) ++graph.start[asked[r][i] + 1];
+  auto next = beyond.begin();
+  for (Index c = 0; c < here.n_cells(); ++c) {
+    for (int f = 0; f < shape_of(here.types[c]).faces; ++f) {
+      const Index half = half_of(c, f), other = mate[half];
+      const Beyond far = other < 0 ? *next++ : Beyond{cells.first() + Half(other).cell, 0};
+      if (far.cell < 0) continue;
+      graph.neighbours.push_back(far.cell);
+      if (!tied) continue;
+      graph.ties.push_back(other < 0 ? far.tie
+                                     : weight_of(here, half, axis) + weight_of(here, other, axis));
     }
-  }
-  std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
-  graph.neighbours.resize(graph.start.back()), graph.ties.resize(tied ? graph.start.back() : 0);
-  std::vector<std::int32_t> next(graph.start.begin(), graph.start.end() - 1);
-  for (std::size_t r = 0; r < asked.size(); ++r) {
-    for (std::size_t i = 0; i < asked[r].size(); ++i) {
-      if (answers[r][i].cell < 0) continue;
-      const std::int32_t at = next[asked[r][i]]++;
-      graph.neighbours[at] = answers[r][i].cell;
-      if (tied) graph.ties[at] = answers[r][i].tie;
-    }
-  }
-  for (Index c = 0; load && c < here.n_cells(); ++c) {
-    graph.load.push_back(load_units(load(middle(here, c))));
+    graph.start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
+    if (load) graph.load.push_back(load_units(load(middle(here, c))));
   }
   return graph;
 }
@@ -144,9 +144,7 @@ Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, c
 std::vector<std::int32_t> gathered(const std::vector<std::int32_t>& mine) {
   std::vector<std::vector<std::int32_t>> to(static_cast<std::size_t>(ranks()));
   to[0] = mine;
-  std::vector<std::int32_t> all;
-  for (const auto& items : exchange(to)) all.insert(all.end(), items.begin(), items.end());
-  return all;
+  return exchange(std::move(to)).items;
 }
 
 /// Collective. The graphs of all ranks as one, on rank 0.
@@ -171,7 +169,7 @@ std::vector<std::int32_t> scattered(const std::vector<std::int32_t>& all, const 
   for (std::size_t r = 0; r < to.size() && !all.empty(); ++r) {
     to[r].assign(all.begin() + cells.begin[r], all.begin() + cells.begin[r + 1]);
   }
-  return exchange(to)[0];
+  return exchange(std::move(to)).items;
 }
 
 /// Part after part, the cells of each.
