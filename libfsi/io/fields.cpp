@@ -11,6 +11,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/io/file.hpp"
 #include "libfsi/io/hdf5.hpp"
+#include "libfsi/io/shared_file.hpp"
 #include "libfsi/io/vtk_mesh.hpp"
 
 namespace fsi::io {
@@ -47,8 +48,9 @@ void agree(const std::string& file, const std::string& reason) {
 }
 
 std::string put(const std::string& path, Hdf5Image& image) {
-  const Bytes bytes = image.bytes();
-  return bytes.empty() ? "HDF5 could not make it" : replace_file(path, {bytes}, Durable::no);
+  if (!image.close()) return "HDF5 could not make it";
+  std::vector<std::byte> bytes(static_cast<std::size_t>(image.size()));
+  return image.read(0, bytes) ? replace_file(path, {bytes}, Durable::no) : "memory fails";
 }
 
 }  // namespace
@@ -64,8 +66,7 @@ void FieldWriter::write_mesh() const {
   const std::string path = directory_ + "/" + mesh_file;
   std::string reason;
   if (rank() == 0) {
-    Hdf5Image image(8 * (mesh.points.size() + mesh.connectivity.size() + mesh.offsets.size()) +
-                    mesh.types.size());
+    Hdf5Image image;
     const auto count = [](std::size_t n) { return std::array{static_cast<std::int64_t>(n)}; };
     head(image);
     image.dataset("/VTKHDF/NumberOfPoints", count(mesh.points.size() / 3));
@@ -109,42 +110,51 @@ std::string FieldWriter::series() const {
   return text + "  ]\n}\n";
 }
 
-void FieldWriter::write(Real t, std::span<const NamedField> fields) {
-  std::size_t width = 0;
-  for (const NamedField& f : fields) {
-    require_finite(f.name, f.values, f.width, On::cells, mesh_);
-    width += static_cast<std::size_t>(f.width);
-  }
-  std::optional<Hdf5Image> image;
-  if (rank() == 0) {
-    image.emplace(8 * width * static_cast<std::size_t>(mesh_.n_global));
-    head(*image);
-    for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
-                             "Connectivity", "Offsets", "Types"})
-      image->link(std::string("/VTKHDF/") + name, mesh_file);
-    image->group("/VTKHDF/CellData");
-  }
-  for (const NamedField& f : fields) {
+std::string FieldWriter::write_cells(const std::string& path, std::span<const NamedField> fields,
+                                     const Hdf5Image* image,
+                                     std::vector<std::uint64_t>& offset) const {
+  MPI_Bcast(offset.data(), static_cast<int>(offset.size()), MPI_UINT64_T, 0, comm());
+  int good = image != nullptr && image->ok() ? 1 : 0;
+  MPI_Bcast(&good, 1, MPI_INT, 0, comm());
+  SharedFile file(path);
+  for (std::size_t i = 0; i < offset.size() && good != 0; ++i) {
+    const NamedField& f = fields[i];
     std::vector<Real> room;
-    std::span<const Real> all = cells_.gather(f.values, f.width, room);
-    if (f.width == 6 && image) all = ordered_as_paraview(all, room);
-    if (image) image->dataset("/VTKHDF/CellData/" + f.name, all, f.width);
+    std::span<const Real> mine = cells_.gather(f.values, f.width, room);
+    if (f.width == 6) mine = ordered_as_paraview(mine, room);
+    const auto first = static_cast<std::uint64_t>(cells_.first() * f.width);
+    file.write(offset[i] + sizeof(Real) * first, std::as_bytes(mine));
   }
-  std::string path, reason;
+  return file.finish(image, Durable::no, nullptr);
+}
+
+void FieldWriter::write(Real t, std::span<const NamedField> fields) {
+  for (const NamedField& f : fields) require_finite(f.name, f.values, f.width, On::cells, mesh_);
+  std::optional<Hdf5Image> image;
+  std::vector<std::uint64_t> offset(fields.size(), 0);
+  const bool anew = !entries_.empty() && entries_.back().t == t;
+  std::array<char, 48> name{};
+  std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size() - (anew ? 1 : 0));
+  const std::string path = directory_ + "/" + broadcast(name.data());
   if (rank() == 0) {
-    const bool anew = !entries_.empty() && entries_.back().t == t;
-    std::array<char, 48> name{};
-    std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size() - (anew ? 1 : 0));
-    path = directory_ + "/" + name.data();
-    reason = put(path, *image);
-    if (reason.empty() && !anew) {
-      entries_.push_back({name.data(), t});
-      const std::string text = series();
-      reason =
-          replace_file(directory_ + series_file, {std::as_bytes(std::span(text))}, Durable::no);
-    }
+    image.emplace();
+    head(*image);
+    for (const char* part : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
+                             "Connectivity", "Offsets", "Types"})
+      image->link(std::string("/VTKHDF/") + part, mesh_file);
+    image->group("/VTKHDF/CellData");
+    for (std::size_t i = 0; i < offset.size(); ++i)
+      offset[i] = image->room("/VTKHDF/CellData/" + fields[i].name,
+                              static_cast<std::uint64_t>(cells_.size()), fields[i].width);
+    image->close();
   }
-  agree(broadcast(path), reason);
+  std::string reason = write_cells(path, fields, image ? &*image : nullptr, offset);
+  if (rank() == 0 && reason.empty() && !anew) {
+    entries_.push_back({name.data(), t});
+    const std::string text = series();
+    reason = replace_file(directory_ + series_file, {std::as_bytes(std::span(text))}, Durable::no);
+  }
+  agree(path, reason);
 }
 
 }  // namespace fsi::io
