@@ -172,7 +172,7 @@ bool Checkpoint::write(const Snapshot& snapshot) {
     image->group("/fields");
     for (std::size_t i = 0; i < offset.size(); ++i) {
       const Snapshot::Values& f = snapshot.fields()[i];
-      offset[i] = image->room("/fields/" + f.name, rows(f.on), f.width);
+      offset[i] = image->room<Real>("/fields/" + f.name, rows(f.on), f.width);
     }
     write_scalars(*image, snapshot);
     const std::array<std::int64_t, 1> cells{mesh_.n_global}, count{ranks()}, version{format},

@@ -47,10 +47,13 @@ void agree(const std::string& file, const std::string& reason) {
     throw Error(Kind::io, "file \"" + file + "\" could not be written: " + shared);
 }
 
-std::string put(const std::string& path, Hdf5Image& image) {
-  if (!image.close()) return "HDF5 could not make it";
-  std::vector<std::byte> bytes(static_cast<std::size_t>(image.size()));
-  return image.read(0, bytes) ? replace_file(path, {bytes}, Durable::no) : "memory fails";
+/// Collective. The ranks' parts of an array, one after the other, in a room of the file.
+template <class T>
+void put_parts(SharedFile& file, std::uint64_t room, const std::vector<T>& part) {
+  auto n = static_cast<std::uint64_t>(part.size());
+  std::uint64_t first = 0;
+  MPI_Exscan(&n, &first, 1, MPI_UINT64_T, MPI_SUM, comm());
+  file.write(room + sizeof(T) * (rank() == 0 ? 0 : first), std::as_bytes(std::span(part)));
 }
 
 }  // namespace
@@ -64,21 +67,32 @@ FieldWriter::FieldWriter(std::string directory, const Mesh& mesh, Real resume_at
 void FieldWriter::write_mesh() const {
   const VtkMesh mesh = vtk_mesh(mesh_);
   const std::string path = directory_ + "/" + mesh_file;
-  std::string reason;
+  std::array<std::int64_t, 3> count{};
+  std::size_t i = 0;
+  for (const std::size_t mine : {mesh.points.size(), mesh.types.size(), mesh.connectivity.size()})
+    count[i++] = global_sum(static_cast<GlobalIndex>(mine));
+  std::optional<Hdf5Image> image;
+  std::array<std::uint64_t, 4> room{};
   if (rank() == 0) {
-    Hdf5Image image;
-    const auto count = [](std::size_t n) { return std::array{static_cast<std::int64_t>(n)}; };
-    head(image);
-    image.dataset("/VTKHDF/NumberOfPoints", count(mesh.points.size() / 3));
-    image.dataset("/VTKHDF/NumberOfCells", count(mesh.types.size()));
-    image.dataset("/VTKHDF/NumberOfConnectivityIds", count(mesh.connectivity.size()));
-    image.dataset("/VTKHDF/Points", mesh.points, 3);
-    image.dataset("/VTKHDF/Connectivity", mesh.connectivity);
-    image.dataset("/VTKHDF/Offsets", mesh.offsets);
-    image.dataset("/VTKHDF/Types", mesh.types);
-    reason = put(path, image);
+    image.emplace();
+    head(*image);
+    const auto rows = [&](std::size_t k) { return static_cast<std::uint64_t>(count[k]); };
+    image->dataset("/VTKHDF/NumberOfPoints", std::array{count[0] / 3});
+    image->dataset("/VTKHDF/NumberOfCells", std::array{count[1]});
+    image->dataset("/VTKHDF/NumberOfConnectivityIds", std::array{count[2]});
+    room[0] = image->room<Real>("/VTKHDF/Points", rows(0) / 3, 3);
+    room[1] = image->room<std::int64_t>("/VTKHDF/Connectivity", rows(2));
+    room[2] = image->room<std::int64_t>("/VTKHDF/Offsets", rows(1) + 1);
+    room[3] = image->room<std::uint8_t>("/VTKHDF/Types", rows(1));
+    image->close();
   }
-  agree(path, reason);
+  MPI_Bcast(room.data(), static_cast<int>(room.size()), MPI_UINT64_T, 0, comm());
+  SharedFile file(path);
+  if (all_of_ranks(rank() != 0 || image->ok())) {
+    put_parts(file, room[0], mesh.points), put_parts(file, room[1], mesh.connectivity);
+    put_parts(file, room[2], mesh.offsets), put_parts(file, room[3], mesh.types);
+  }
+  agree(path, file.finish(image ? &*image : nullptr, Durable::no, nullptr));
 }
 
 void FieldWriter::take_up(Real resume_at) {
@@ -144,8 +158,8 @@ void FieldWriter::write(Real t, std::span<const NamedField> fields) {
       image->link(std::string("/VTKHDF/") + part, mesh_file);
     image->group("/VTKHDF/CellData");
     for (std::size_t i = 0; i < offset.size(); ++i)
-      offset[i] = image->room("/VTKHDF/CellData/" + fields[i].name,
-                              static_cast<std::uint64_t>(cells_.size()), fields[i].width);
+      offset[i] = image->room<Real>("/VTKHDF/CellData/" + fields[i].name,
+                                    static_cast<std::uint64_t>(cells_.size()), fields[i].width);
     image->close();
   }
   std::string reason = write_cells(path, fields, image ? &*image : nullptr, offset);

@@ -108,10 +108,17 @@ std::uint64_t Hdf5Image::write(const std::string& path, Hdf5Id type,
   return ok_ ? offset : 0;
 }
 
+template <class T>
 std::uint64_t Hdf5Image::room(const std::string& path, std::uint64_t rows, int width) {
   const std::array<std::uint64_t, 2> extent{rows, static_cast<std::uint64_t>(width)};
-  return write(path, H5T_NATIVE_DOUBLE, {extent.data(), width > 1 ? 2U : 1U}, nullptr);
+  const hid_t type = std::is_same_v<T, Real>           ? H5T_NATIVE_DOUBLE
+                     : std::is_same_v<T, std::int64_t> ? H5T_NATIVE_INT64
+                                                       : H5T_NATIVE_UINT8;
+  return write(path, type, {extent.data(), width > 1 ? 2U : 1U}, nullptr);
 }
+template std::uint64_t Hdf5Image::room<Real>(const std::string&, std::uint64_t, int);
+template std::uint64_t Hdf5Image::room<std::int64_t>(const std::string&, std::uint64_t, int);
+template std::uint64_t Hdf5Image::room<std::uint8_t>(const std::string&, std::uint64_t, int);
 
 void Hdf5Image::dataset(const std::string& path, std::span<const Real> values, int width) {
   const auto w = static_cast<std::uint64_t>(width);

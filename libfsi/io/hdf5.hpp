@@ -30,9 +30,10 @@ class Hdf5Image {
   void dataset(const std::string& path, std::span<const Real> values, int width = 1);
   void dataset(const std::string& path, std::span<const std::int64_t> values);
   void dataset(const std::string& path, std::span<const std::uint8_t> values);
-  /// Room for a dataset of Reals that others write: rows, `width` to a row. Returns where in the
-  /// file it begins, in bytes.
-  std::uint64_t room(const std::string& path, std::uint64_t rows, int width);
+  /// Room for a dataset of T (Real, std::int64_t, std::uint8_t) that others write: rows, `width` to
+  /// a row. Returns where in the file it begins, in bytes.
+  template <class T>
+  std::uint64_t room(const std::string& path, std::uint64_t rows, int width = 1);
   /// An attribute of the group or dataset `object`; one value is a scalar.
   void attribute(const std::string& object, const std::string& name, Real value);
   void attribute(const std::string& object, const std::string& name,

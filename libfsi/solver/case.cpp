@@ -16,7 +16,8 @@ namespace {
 
 MeshOptions read_mesh_options(Options& options, const Vec3& path) {
   MeshOptions mesh;
-  mesh.file = options.text("mesh", "", "gmsh file, 2.2 or 4.x; a 2-D mesh makes a 2-D run");
+  mesh.file = options.text(
+      "mesh", "", "gmsh file, 2.2 or 4.x, or .h5 of fsi-mesh convert; a 2-D mesh makes a 2-D run");
   mesh.periodic =
       options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
   mesh.partitioner =
@@ -25,7 +26,8 @@ MeshOptions read_mesh_options(Options& options, const Vec3& path) {
   if (mesh.partitioner == "metis")
     mesh.along = options.vec3("mesh_divide_along", path,
                               {.help = "direction the solid travels in: the mesh is divided "
-                                       "lengthwise, so that ranks share the solid; 0,0,0: none",
+                                       "lengthwise, so that ranks share the solid all the way; "
+                                       "0,0,0: none",
                                .unit = ""});
   return mesh;
 }
