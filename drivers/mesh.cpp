@@ -1,5 +1,7 @@
 // What is done to meshes before a run: fsi-mesh convert in.msh out.h5 [options]. -help
 
+#include <cstdio>
+#include <string>
 #include <string_view>
 
 #include "libfsi/fsi.hpp"
@@ -18,8 +20,11 @@ Ending convert(const char* from, const char* to) {
   return Ending::complete;
 }
 
-Ending usage() {
-  require(false, "fsi-mesh: say what to do: fsi-mesh convert in.msh out.h5 [-mesh_periodic a,b]");
+constexpr const char* commands = "fsi-mesh convert in.msh out.h5 [-mesh_periodic a,b]";
+
+Ending usage(bool asked) {
+  require(asked, std::string("fsi-mesh: say what to do: ") + commands);
+  if (rank() == 0) std::printf("%s\n", commands);
   return Ending::complete;
 }
 
@@ -29,5 +34,6 @@ int main(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "convert" && argc > 3)
     return fsi::run(argc - 3, argv + 3, [&] { return fsi::convert(argv[2], argv[3]); });
-  return fsi::run(1, argv, fsi::usage);
+  const bool asked = command == "-help" || command == "--help" || command == "-h";
+  return fsi::run(1, argv, [&] { return fsi::usage(asked); });
 }
