@@ -12,6 +12,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/io/manifest.hpp"
 #include "libfsi/io/table.hpp"
+#include "libfsi/mesh/convert.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/mesh/quality.hpp"
 #include "libfsi/mesh/read.hpp"

@@ -12,6 +12,7 @@
 #include "libfsi/io/crc.hpp"
 #include "libfsi/io/file.hpp"
 #include "libfsi/io/hdf5.hpp"
+#include "libfsi/io/shared_file.hpp"
 
 namespace fsi::io {
 namespace {
@@ -19,13 +20,14 @@ namespace {
 constexpr std::int64_t format = 1;
 
 /// What stands behind the HDF5 file: its length and check, as text. HDF5 does not look there.
-using Trailer = std::array<char, 96>;
+constexpr std::size_t trailer_size = 96;
 
-Trailer trailer(std::size_t length, std::uint64_t crc) {
-  Trailer text{};
-  std::snprintf(text.data(), text.size(), "\nfsi checkpoint %lld\nbytes %zu\ncrc64 %016llx\n",
-                static_cast<long long>(format), length, static_cast<unsigned long long>(crc));
-  return text;
+std::string trailer(std::uint64_t length, std::uint64_t crc) {
+  std::array<char, trailer_size> text{};
+  std::snprintf(text.data(), text.size(), "\nfsi checkpoint %lld\nbytes %llu\ncrc64 %016llx\n",
+                static_cast<long long>(format), static_cast<unsigned long long>(length),
+                static_cast<unsigned long long>(crc));
+  return {text.begin(), text.end()};
 }
 
 /// Whether the file is what was once written: "", or the reason where it is not.
@@ -34,7 +36,7 @@ std::string damage(const std::string& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   std::ifstream stream(path, std::ios::binary);
   if (code || !stream) return "it cannot be opened";
-  Trailer found{};
+  std::string found(trailer_size, '\0');
   if (size < found.size()) return "it is too short";
   const std::size_t length = size - found.size();
   std::vector<char> chunk(1 << 20);
@@ -44,7 +46,7 @@ std::string damage(const std::string& path) {
     stream.read(chunk.data(), static_cast<std::streamsize>(n));
     crc = crc64(std::as_bytes(std::span(chunk).first(n)), crc);
   }
-  stream.read(found.data(), found.size());
+  stream.read(found.data(), trailer_size);
   return stream && found == trailer(length, crc) ? "" : "its length or checksum is wrong";
 }
 
@@ -140,24 +142,38 @@ void Checkpoint::clear() const {
     std::filesystem::remove(path(number), code);
 }
 
+std::uint64_t Checkpoint::rows(On on) const {
+  return static_cast<std::uint64_t>(layout(on).size());
+}
+
+std::string Checkpoint::write_fields(const Snapshot& snapshot, const Hdf5Image* image,
+                                     std::vector<std::uint64_t>& offset) const {
+  MPI_Bcast(offset.data(), static_cast<int>(offset.size()), MPI_UINT64_T, 0, comm());
+  int good = image != nullptr && image->ok() ? 1 : 0;
+  MPI_Bcast(&good, 1, MPI_INT, 0, comm());
+  SharedFile file(path(next_));
+  for (std::size_t i = 0; i < offset.size() && good != 0; ++i) {
+    const Snapshot::Values& f = snapshot.fields()[i];
+    std::vector<Real> room;
+    const std::span<const Real> mine = layout(f.on).gather(f.values, f.width, room);
+    const auto first = static_cast<std::uint64_t>(layout(f.on).first() * f.width);
+    file.write(offset[i] + sizeof(Real) * first, std::as_bytes(mine));
+  }
+  return file.finish(image, Durable::yes, trailer);
+}
+
 bool Checkpoint::write(const Snapshot& snapshot) {
   for (const Snapshot::Values& f : snapshot.fields())
     require_finite(f.name, f.values, f.width, f.on, mesh_);
   std::optional<Hdf5Image> image;
+  std::vector<std::uint64_t> offset(snapshot.fields().size(), 0);
   if (rank() == 0) {
-    std::size_t reals = 0;
-    for (const Snapshot::Values& f : snapshot.fields())
-      reals += static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width);
-    image.emplace(reals * sizeof(Real));
+    image.emplace();
     image->group("/fields");
-  }
-  for (const Snapshot::Values& f : snapshot.fields()) {
-    std::vector<Real> room;
-    const std::span<const Real> all = layout(f.on).gather(f.values, f.width, room);
-    if (image) image->dataset("/fields/" + f.name, all, f.width);
-  }
-  std::string reason;
-  if (image) {
+    for (std::size_t i = 0; i < offset.size(); ++i) {
+      const Snapshot::Values& f = snapshot.fields()[i];
+      offset[i] = image->room<Real>("/fields/" + f.name, rows(f.on), f.width);
+    }
     write_scalars(*image, snapshot);
     const std::array<std::int64_t, 1> cells{mesh_.n_global}, count{ranks()}, version{format},
         done{1}, hash{static_cast<std::int64_t>(mesh_.hash)};
@@ -167,14 +183,10 @@ bool Checkpoint::write(const Snapshot& snapshot) {
     image->attribute("/", "ranks", count);
     image->attribute("/", "identity", snapshot.identity());
     image->attribute("/", "complete", done);
-    const Bytes bytes = image->bytes();
-    const Trailer check = trailer(bytes.size(), crc64(bytes));
-    reason = bytes.empty() ? "HDF5 could not make it"
-                           : replace_file(path(next_), {bytes, std::as_bytes(std::span(check))},
-                                          Durable::yes);
-    if (reason.empty()) keep_two();
+    image->close();
   }
-  reason = broadcast(reason);
+  const std::string reason = write_fields(snapshot, image ? &*image : nullptr, offset);
+  if (rank() == 0 && reason.empty()) keep_two();
   if (!reason.empty()) {
     warn("checkpoint \"" + path(next_) + "\" could not be written: " + reason +
          "; what was there before stays");
@@ -208,16 +220,19 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
   std::optional<Hdf5File> source;
   if (rank() == 0) source.emplace(file);
   agree(source ? objection(*source, snapshot) : "");
+  const Hdf5File fields(file);
   for (const Snapshot::Values& f : snapshot.fields()) {
-    std::vector<Real> all;
-    bool good = true;
-    if (source) {
-      all.resize(static_cast<std::size_t>(layout(f.on).size()) * static_cast<std::size_t>(f.width));
-      good = source->dataset("/fields/" + f.name, all) ||
-             (!f.instead.empty() && source->dataset("/fields/" + f.instead, all));
-    }
-    agree(good ? "" : "holds no field \"" + f.name + "\" of this size");
-    layout(f.on).scatter(all, f.width, f.values);
+    const Layout& where = layout(f.on);
+    std::vector<Real> mine(static_cast<std::size_t>(where.mine() * f.width));
+    const auto found = [&](const std::string& name) {
+      return fields.ok() &&
+             fields.dataset("/fields/" + name, rows(f.on),
+                            static_cast<std::uint64_t>(where.first()), mine, f.width);
+    };
+    const bool good = found(f.name) || (!f.instead.empty() && found(f.instead));
+    require(all_of_ranks(good),
+            "checkpoint \"" + file + "\" holds no field \"" + f.name + "\" of this size");
+    where.scatter(mine, f.width, f.values);
     if (f.on == On::cells) mesh_.halo.update(f.values, f.width);
   }
   share_scalars(snapshot);

@@ -13,6 +13,7 @@
 namespace fsi::io {
 
 class Hdf5File;
+class Hdf5Image;
 
 /// What a checkpoint holds, by name, as references to where it lives: the same list serves to write
 /// and to read. It holds as long as the fields keep their storage: a Field listed is never swapped.
@@ -50,7 +51,7 @@ class Snapshot {
 
 /// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept.
 /// A file is whole or not there: HDF5, and behind it the length and CRC-64 of all before. Values
-/// stand in an order that no division of the mesh changes.
+/// stand in an order that no division of the mesh changes; every rank writes and reads its stretch.
 class Checkpoint {
  public:
   /// Collective. Removes what an interrupted write left behind.
@@ -77,6 +78,9 @@ class Checkpoint {
   const Layout& layout(On on) const;
   std::string path(std::int64_t number) const;
   void keep_two() const;
+  std::uint64_t rows(On on) const;
+  std::string write_fields(const Snapshot& snapshot, const Hdf5Image* image,
+                           std::vector<std::uint64_t>& offset) const;
   std::string objection(const Hdf5File& file, const Snapshot& snapshot) const;
   void load(const std::string& file, const Snapshot& snapshot) const;
 

@@ -32,4 +32,30 @@ inline std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t befor
   return ~crc;
 }
 
+/// The check of a followed by b, from the checks of both and the length of b in bytes: one step of
+/// the check for a zero bit is linear, so `length` of them are a power of its matrix [zlib].
+inline std::uint64_t crc64_joined(std::uint64_t a, std::uint64_t b, std::uint64_t length) {
+  using Matrix = std::array<std::uint64_t, 64>;
+  const auto apply = [](const Matrix& m, std::uint64_t v) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < 64; ++i) sum ^= ((v >> i) & 1) != 0 ? m[i] : 0;
+    return sum;
+  };
+  const auto squared = [&](const Matrix& m) {
+    Matrix result;
+    for (std::size_t i = 0; i < 64; ++i) result[i] = apply(m, m[i]);
+    return result;
+  };
+  Matrix power;  // of one zero bit
+  for (std::size_t i = 0; i < 64; ++i) {
+    const std::uint64_t v = std::uint64_t{1} << i;
+    power[i] = (v >> 1) ^ ((v & 1) != 0 ? 0xc96c5795d7870f42ULL : 0);
+  }
+  for (int i = 0; i < 3; ++i) power = squared(power);  // of a byte
+  for (; length > 0; length >>= 1, power = squared(power)) {
+    if ((length & 1) != 0) a = apply(power, a);
+  }
+  return a ^ b;
+}
+
 }  // namespace fsi::io

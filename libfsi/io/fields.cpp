@@ -11,7 +11,9 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/io/file.hpp"
 #include "libfsi/io/hdf5.hpp"
+#include "libfsi/io/shared_file.hpp"
 #include "libfsi/io/vtk_file.hpp"
+#include "libfsi/io/vtk_mesh.hpp"
 
 namespace fsi::io {
 namespace {
@@ -32,6 +34,15 @@ std::span<const Real> ordered_as_paraview(std::span<const Real> from, std::vecto
   return values;
 }
 
+/// Collective. The ranks' parts of an array, one after the other, in a room of the file.
+template <class T>
+void put_parts(SharedFile& file, std::uint64_t room, const std::vector<T>& part) {
+  auto n = static_cast<std::uint64_t>(part.size());
+  std::uint64_t first = 0;
+  MPI_Exscan(&n, &first, 1, MPI_UINT64_T, MPI_SUM, comm());
+  file.write(room + sizeof(T) * (rank() == 0 ? 0 : first), std::as_bytes(std::span(part)));
+}
+
 }  // namespace
 
 FieldWriter::FieldWriter(std::string directory, const Mesh& mesh, Real resume_at)
@@ -43,14 +54,32 @@ FieldWriter::FieldWriter(std::string directory, const Mesh& mesh, Real resume_at
 void FieldWriter::write_mesh() const {
   const VtkMesh mesh = vtk_mesh(mesh_);
   const std::string path = directory_ + "/" + mesh_file;
-  std::string reason;
+  std::array<std::int64_t, 3> count{};
+  std::size_t i = 0;
+  for (const std::size_t mine : {mesh.points.size(), mesh.types.size(), mesh.connectivity.size()})
+    count[i++] = global_sum(static_cast<GlobalIndex>(mine));
+  std::optional<Hdf5Image> image;
+  std::array<std::uint64_t, 4> room{};
   if (rank() == 0) {
-    Hdf5Image image(bytes_of(mesh));
-    head_vtk(image);
-    add(image, mesh);
-    reason = put(path, image);
+    image.emplace();
+    head_vtk(*image);
+    const auto rows = [&](std::size_t k) { return static_cast<std::uint64_t>(count[k]); };
+    image->dataset("/VTKHDF/NumberOfPoints", std::array{count[0] / 3});
+    image->dataset("/VTKHDF/NumberOfCells", std::array{count[1]});
+    image->dataset("/VTKHDF/NumberOfConnectivityIds", std::array{count[2]});
+    room[0] = image->room<Real>("/VTKHDF/Points", rows(0) / 3, 3);
+    room[1] = image->room<std::int64_t>("/VTKHDF/Connectivity", rows(2));
+    room[2] = image->room<std::int64_t>("/VTKHDF/Offsets", rows(1) + 1);
+    room[3] = image->room<std::uint8_t>("/VTKHDF/Types", rows(1));
+    image->close();
   }
-  agree(path, reason);
+  MPI_Bcast(room.data(), static_cast<int>(room.size()), MPI_UINT64_T, 0, comm());
+  SharedFile file(path);
+  if (all_of_ranks(rank() != 0 || image->ok())) {
+    put_parts(file, room[0], mesh.points), put_parts(file, room[1], mesh.connectivity);
+    put_parts(file, room[2], mesh.offsets), put_parts(file, room[3], mesh.types);
+  }
+  agree(path, file.finish(image ? &*image : nullptr, Durable::no, nullptr));
 }
 
 void FieldWriter::take_up(Real resume_at) {
@@ -82,42 +111,51 @@ std::string FieldWriter::series() const {
   return text + "  ]\n}\n";
 }
 
-void FieldWriter::write(Real t, std::span<const NamedField> fields) {
-  std::size_t width = 0;
-  for (const NamedField& f : fields) {
-    require_finite(f.name, f.values, f.width, On::cells, mesh_);
-    width += static_cast<std::size_t>(f.width);
-  }
-  std::optional<Hdf5Image> image;
-  if (rank() == 0) {
-    image.emplace(8 * width * static_cast<std::size_t>(mesh_.n_global));
-    head_vtk(*image);
-    for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
-                             "Connectivity", "Offsets", "Types"})
-      image->link(std::string("/VTKHDF/") + name, mesh_file);
-    image->group("/VTKHDF/CellData");
-  }
-  for (const NamedField& f : fields) {
+std::string FieldWriter::write_cells(const std::string& path, std::span<const NamedField> fields,
+                                     const Hdf5Image* image,
+                                     std::vector<std::uint64_t>& offset) const {
+  MPI_Bcast(offset.data(), static_cast<int>(offset.size()), MPI_UINT64_T, 0, comm());
+  int good = image != nullptr && image->ok() ? 1 : 0;
+  MPI_Bcast(&good, 1, MPI_INT, 0, comm());
+  SharedFile file(path);
+  for (std::size_t i = 0; i < offset.size() && good != 0; ++i) {
+    const NamedField& f = fields[i];
     std::vector<Real> room;
-    std::span<const Real> all = cells_.gather(f.values, f.width, room);
-    if (f.width == 6 && image) all = ordered_as_paraview(all, room);
-    if (image) image->dataset("/VTKHDF/CellData/" + f.name, all, f.width);
+    std::span<const Real> mine = cells_.gather(f.values, f.width, room);
+    if (f.width == 6) mine = ordered_as_paraview(mine, room);
+    const auto first = static_cast<std::uint64_t>(cells_.first() * f.width);
+    file.write(offset[i] + sizeof(Real) * first, std::as_bytes(mine));
   }
-  std::string path, reason;
+  return file.finish(image, Durable::no, nullptr);
+}
+
+void FieldWriter::write(Real t, std::span<const NamedField> fields) {
+  for (const NamedField& f : fields) require_finite(f.name, f.values, f.width, On::cells, mesh_);
+  std::optional<Hdf5Image> image;
+  std::vector<std::uint64_t> offset(fields.size(), 0);
+  const bool anew = !entries_.empty() && entries_.back().t == t;
+  std::array<char, 48> name{};
+  std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size() - (anew ? 1 : 0));
+  const std::string path = directory_ + "/" + broadcast(name.data());
   if (rank() == 0) {
-    const bool anew = !entries_.empty() && entries_.back().t == t;
-    std::array<char, 48> name{};
-    std::snprintf(name.data(), name.size(), "fields_%04zu.hdf", entries_.size() - (anew ? 1 : 0));
-    path = directory_ + "/" + name.data();
-    reason = put(path, *image);
-    if (reason.empty() && !anew) {
-      entries_.push_back({name.data(), t});
-      const std::string text = series();
-      reason =
-          replace_file(directory_ + series_file, {std::as_bytes(std::span(text))}, Durable::no);
-    }
+    image.emplace();
+    head_vtk(*image);
+    for (const char* part : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points",
+                             "Connectivity", "Offsets", "Types"})
+      image->link(std::string("/VTKHDF/") + part, mesh_file);
+    image->group("/VTKHDF/CellData");
+    for (std::size_t i = 0; i < offset.size(); ++i)
+      offset[i] = image->room<Real>("/VTKHDF/CellData/" + fields[i].name,
+                                    static_cast<std::uint64_t>(cells_.size()), fields[i].width);
+    image->close();
   }
-  agree(broadcast(path), reason);
+  std::string reason = write_cells(path, fields, image ? &*image : nullptr, offset);
+  if (rank() == 0 && reason.empty() && !anew) {
+    entries_.push_back({name.data(), t});
+    const std::string text = series();
+    reason = replace_file(directory_ + series_file, {std::as_bytes(std::span(text))}, Durable::no);
+  }
+  agree(path, reason);
 }
 
 }  // namespace fsi::io

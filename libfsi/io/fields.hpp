@@ -12,6 +12,8 @@
 
 namespace fsi::io {
 
+class Hdf5Image;
+
 /// Values of the owned cells under a name, `width` Reals each: 1, 3 (vector), 6 (SymTensor) or 9.
 struct NamedField {
   std::string name;
@@ -47,6 +49,8 @@ class FieldWriter {
     Real t;
   };
   void write_mesh() const;
+  std::string write_cells(const std::string& path, std::span<const NamedField> fields,
+                          const Hdf5Image* image, std::vector<std::uint64_t>& offset) const;
   void take_up(Real resume_at);
   std::string series() const;
 

@@ -25,7 +25,10 @@ bool write_all(int descriptor, Bytes bytes) {
   return true;
 }
 
-/// Makes a rename last. A file system that cannot synchronise a directory is left alone.
+}  // namespace
+
+std::string temporary_of(const std::string& path) { return path + ".tmp"; }
+
 void synchronise_directory(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -33,10 +36,6 @@ void synchronise_directory(const std::string& path) {
   ::fsync(descriptor);
   ::close(descriptor);
 }
-
-}  // namespace
-
-std::string temporary_of(const std::string& path) { return path + ".tmp"; }
 
 std::string replace_file(const std::string& path, std::initializer_list<Bytes> parts,
                          Durable durable) {

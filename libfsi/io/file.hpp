@@ -23,6 +23,9 @@ std::string replace_file(const std::string& path, std::initializer_list<Bytes> p
 /// The name of the temporary file of replace_file.
 std::string temporary_of(const std::string& path);
 
+/// Makes a rename in the directory of `path` last. A file system that cannot is left alone.
+void synchronise_directory(const std::string& path);
+
 /// An output directory held by this run. Invariant: no other Lock holds it; the kernel lets it go
 /// when the program ends in whatever way.
 class Lock {

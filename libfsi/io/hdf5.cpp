@@ -1,6 +1,9 @@
 #include "libfsi/io/hdf5.hpp"
 
+#include <fcntl.h>
 #include <hdf5.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -53,19 +56,22 @@ hid_t text_type(std::size_t length) {
 
 }  // namespace
 
-Hdf5Image::Hdf5Image(std::size_t expected) {
+Hdf5Image::Hdf5Image() {
   const Quiet quiet;
-  access_ = H5Pcreate(H5P_FILE_ACCESS);
-  constexpr std::size_t spare = 1 << 16;  // for what is not data
-  ok_ = access_ >= 0 && H5Pset_fapl_core(access_, expected + spare, 0) >= 0;
-  if (ok_) file_ = H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_);
+  memory_ = ::memfd_create("fsi", MFD_CLOEXEC);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // The driver of C streams: the other one looks for the name of a file in memory on the disk.
+  ok_ = memory_ >= 0 && access.ok() && H5Pset_fapl_stdio(access) >= 0 &&
+        H5Pset_file_locking(access, 0, 1) >= 0;
+  const std::string path = "/proc/self/fd/" + std::to_string(memory_);
+  if (ok_) file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   ok_ = ok_ && file_ >= 0;
 }
 
 Hdf5Image::~Hdf5Image() {
   const Quiet quiet;
   if (file_ >= 0) H5Fclose(file_);
-  if (access_ >= 0) H5Pclose(access_);
+  if (memory_ >= 0) ::close(memory_);
 }
 
 void Hdf5Image::group(const std::string& path) {
@@ -76,25 +82,43 @@ void Hdf5Image::group(const std::string& path) {
   ok_ = made.ok();
 }
 
-void Hdf5Image::write(const std::string& path, Hdf5Id type, std::span<const std::uint64_t> extent,
-                      const void* data) {
-  if (!ok_) return;
+std::uint64_t Hdf5Image::write(const std::string& path, Hdf5Id type,
+                               std::span<const std::uint64_t> extent, const void* data) {
+  if (!ok_) return 0;
   const Quiet quiet;
   std::array<hsize_t, 2> dims{};
   std::copy(extent.begin(), extent.end(), dims.begin());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), dims.data(), nullptr),
                      H5Sclose);
   ok_ = space.ok();
-  if (!ok_) return;
-  // No time of writing: the same values give the same bytes.
+  if (!ok_) return 0;
+  // No time of writing: the same values give the same bytes. Nothing but the values is written.
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  ok_ = creation.ok() && H5Pset_obj_track_times(creation, 0) >= 0;
-  if (!ok_) return;
+  ok_ = creation.ok() && H5Pset_obj_track_times(creation, 0) >= 0 &&
+        H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY) >= 0 &&
+        H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER) >= 0;
+  if (!ok_) return 0;
   const Handle set(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                    H5Dclose);
   ok_ = set.ok();
-  if (ok_ && dims[0] > 0) ok_ = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+  if (!ok_ || dims[0] == 0) return 0;
+  if (data != nullptr) ok_ = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+  const haddr_t offset = H5Dget_offset(set);
+  ok_ = ok_ && offset != HADDR_UNDEF;
+  return ok_ ? offset : 0;
 }
+
+template <class T>
+std::uint64_t Hdf5Image::room(const std::string& path, std::uint64_t rows, int width) {
+  const std::array<std::uint64_t, 2> extent{rows, static_cast<std::uint64_t>(width)};
+  const hid_t type = std::is_same_v<T, Real>           ? H5T_NATIVE_DOUBLE
+                     : std::is_same_v<T, std::int64_t> ? H5T_NATIVE_INT64
+                                                       : H5T_NATIVE_UINT8;
+  return write(path, type, {extent.data(), width > 1 ? 2U : 1U}, nullptr);
+}
+template std::uint64_t Hdf5Image::room<Real>(const std::string&, std::uint64_t, int);
+template std::uint64_t Hdf5Image::room<std::int64_t>(const std::string&, std::uint64_t, int);
+template std::uint64_t Hdf5Image::room<std::uint8_t>(const std::string&, std::uint64_t, int);
 
 void Hdf5Image::dataset(const std::string& path, std::span<const Real> values, int width) {
   const auto w = static_cast<std::uint64_t>(width);
@@ -149,16 +173,19 @@ void Hdf5Image::link(const std::string& path, const std::string& file) {
                            H5P_DEFAULT) >= 0;
 }
 
-std::span<const std::byte> Hdf5Image::bytes() {
-  if (!ok_) return {};
+bool Hdf5Image::close() {
   const Quiet quiet;
-  void* handle = nullptr;
-  ok_ = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
-  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-  // The handle of a file in memory is the address of its memory.
-  ok_ = ok_ && size > 0 && H5Fget_vfd_handle(file_, access_, &handle) >= 0 && handle != nullptr;
-  if (!ok_) return {};
-  return {*static_cast<const std::byte**>(handle), static_cast<std::size_t>(size)};
+  if (file_ >= 0) ok_ = H5Fclose(file_) >= 0 && ok_;
+  file_ = -1;
+  const off_t end = ::lseek(memory_, 0, SEEK_END);
+  ok_ = ok_ && end > 0;
+  size_ = ok_ ? static_cast<std::uint64_t>(end) : 0;
+  return ok_;
+}
+
+bool Hdf5Image::read(std::uint64_t offset, std::span<std::byte> bytes) const {
+  return ::pread(memory_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) ==
+         static_cast<ssize_t>(bytes.size());
 }
 
 Hdf5File::Hdf5File(const std::string& path) {
@@ -183,6 +210,28 @@ bool Hdf5File::dataset(const std::string& path, std::span<Real> values) const {
     return false;
   return values.empty() ||
          H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+}
+
+bool Hdf5File::dataset(const std::string& path, std::uint64_t rows, std::uint64_t first,
+                       std::span<Real> values, int width) const {
+  const Quiet quiet;
+  const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.ok()) return false;
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const auto w = static_cast<hsize_t>(width);
+  const int rank = width > 1 ? 2 : 1;
+  std::array<hsize_t, 2> dims{0, 1};
+  if (!space.ok() || H5Sget_simple_extent_ndims(space) != rank ||
+      H5Sget_simple_extent_dims(space, dims.data(), nullptr) != rank || dims[0] != rows ||
+      dims[1] != w)
+    return false;
+  if (values.empty()) return true;
+  const std::array<hsize_t, 2> start{first, 0}, count{values.size() / w, w};
+  const Handle memory(H5Screate_simple(rank, count.data(), nullptr), H5Sclose);
+  return memory.ok() &&
+         H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >=
+             0 &&
+         H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0;
 }
 
 bool Hdf5File::fetch(const std::string& object, const std::string& name, Hdf5Id type,

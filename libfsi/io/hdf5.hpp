@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 files by one rank: made in memory, so that HDF5 itself never meets a full disk, and read
+// HDF5 files: made in memory by one rank, so that HDF5 itself never meets a full disk, and read
 // with every status kept. Nothing here throws: ok() is asked once at the end, then agreed on by all
 // ranks.
 
@@ -16,11 +16,11 @@ namespace fsi::io {
 /// The number HDF5 knows an open thing by.
 using Hdf5Id = std::int64_t;
 
-/// A file being made. Invariant: once a call fails, ok() stays false.
+/// A file being made, in memory that only what is written takes up. Invariant: once a call fails,
+/// ok() stays false.
 class Hdf5Image {
  public:
-  /// expected: about the bytes it will hold.
-  explicit Hdf5Image(std::size_t expected);
+  Hdf5Image();
   ~Hdf5Image();
   Hdf5Image(const Hdf5Image&) = delete;
   Hdf5Image& operator=(const Hdf5Image&) = delete;
@@ -30,6 +30,10 @@ class Hdf5Image {
   void dataset(const std::string& path, std::span<const Real> values, int width = 1);
   void dataset(const std::string& path, std::span<const std::int64_t> values);
   void dataset(const std::string& path, std::span<const std::uint8_t> values);
+  /// Room for a dataset of T (Real, std::int64_t, std::uint8_t) that others write: rows, `width` to
+  /// a row. Returns where in the file it begins, in bytes.
+  template <class T>
+  std::uint64_t room(const std::string& path, std::uint64_t rows, int width = 1);
   /// An attribute of the group or dataset `object`; one value is a scalar.
   void attribute(const std::string& object, const std::string& name, Real value);
   void attribute(const std::string& object, const std::string& name,
@@ -39,15 +43,20 @@ class Hdf5Image {
   void link(const std::string& path, const std::string& file);
 
   bool ok() const { return ok_; }
-  /// The file as it stands; empty unless ok. Valid while this lives and nothing is added.
-  std::span<const std::byte> bytes();
+  /// Ends the making. Whether all went well; then size() and read() tell of the file, rooms left
+  /// out.
+  bool close();
+  std::uint64_t size() const { return size_; }
+  bool read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
  private:
-  void write(const std::string& path, Hdf5Id type, std::span<const std::uint64_t> extent,
-             const void* data);
+  std::uint64_t write(const std::string& path, Hdf5Id type, std::span<const std::uint64_t> extent,
+                      const void* data);
   void attach(const std::string& object, const std::string& name, Hdf5Id type, std::size_t count,
               const void* data);
-  Hdf5Id access_ = -1, file_ = -1;
+  int memory_ = -1;
+  Hdf5Id file_ = -1;
+  std::uint64_t size_ = 0;
   bool ok_ = true;
 };
 
@@ -62,6 +71,9 @@ class Hdf5File {
   bool ok() const { return file_ >= 0; }
   /// Whether there is such a dataset of exactly that many Reals; then it is read.
   bool dataset(const std::string& path, std::span<Real> values) const;
+  /// The same of `rows` rows in all, of which those from `first` on are read.
+  bool dataset(const std::string& path, std::uint64_t rows, std::uint64_t first,
+               std::span<Real> values, int width) const;
   /// Whether there is such a scalar attribute; then it is read.
   bool attribute(const std::string& object, const std::string& name, Real& value) const;
   bool attribute(const std::string& object, const std::string& name, std::int64_t& value) const;

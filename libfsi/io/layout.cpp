@@ -1,142 +1,189 @@
 #include "libfsi/io/layout.hpp"
 
+#include <petscsf.h>
+
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/io/collect.hpp"
+#include "libfsi/mesh/cells.hpp"
+#include "libfsi/mesh/exchange.hpp"
 
 namespace fsi::io {
 namespace {
 
-constexpr int tag = 71;
+/// `width` Reals side by side. One is MPI_DOUBLE itself, see Halo.
+class Unit {
+ public:
+  explicit Unit(int width) {
+    if (width == 1) return;
+    MPI_Type_contiguous(width, MPI_DOUBLE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  ~Unit() {
+    if (type_ != MPI_DOUBLE) MPI_Type_free(&type_);
+  }
+  Unit(const Unit&) = delete;
+  Unit& operator=(const Unit&) = delete;
+  operator MPI_Datatype() const { return type_; }
 
-/// What makes a face the same on every rank: patch (-1: internal), owner, neighbour, and its place
-/// among the faces for which these three agree.
-struct Key {
-  std::int64_t patch, P, N, k;
-  auto operator<=>(const Key&) const = default;
+ private:
+  MPI_Datatype type_ = MPI_DOUBLE;
 };
 
-std::vector<Key> keys_of_faces(const Mesh& mesh, Index first) {
-  std::vector<Key> keys;
-  keys.reserve(static_cast<std::size_t>(mesh.n_faces - first));
-  const auto add = [&](std::int64_t patch, GlobalIndex P, GlobalIndex N) {
-    Key key{patch, P, N, 0};
-    if (!keys.empty()) {
-      const Key& last = keys.back();
-      if (last.patch == patch && last.P == P && last.N == N) key.k = last.k + 1;
-    }
-    keys.push_back(key);
-  };
-  for (Index f = first; f < mesh.n_internal; ++f)
-    add(-1, mesh.global_id[mesh.owner[f]], mesh.global_id[mesh.neighbour[f]]);
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+/// Where the faces of each owned cell begin in the file order, [cells][kinds]: kind 0 internal,
+/// then the patches. cells: the layout of cells.
+std::vector<Real> beginnings(const Mesh& mesh, const Layout& cells, bool boundary_only) {
+  const std::size_t kinds = mesh.patches.size() + 1;
+  std::vector<Real> count(kinds * static_cast<std::size_t>(mesh.n_cells), 0), room;
+  for (Index f = boundary_only ? mesh.n_internal : 0; f < mesh.n_internal; ++f)
+    count[kinds * static_cast<std::size_t>(mesh.owner[f])] += 1;
+  for (std::size_t p = 0; p + 1 < kinds; ++p)
     for (Index f = mesh.patches[p].begin; f < mesh.patches[p].end; ++f)
-      add(static_cast<std::int64_t>(p), mesh.global_id[mesh.owner[f]], 0);
-  return keys;
+      count[kinds * static_cast<std::size_t>(mesh.owner[f]) + p + 1] += 1;
+  const int width = static_cast<int>(kinds);
+  const std::span<const Real> found = cells.gather(count.data(), width, room);
+  std::vector<Real> stretch(found.begin(), found.end()), sum(kinds, 0), before(kinds, 0);
+  for (std::size_t i = 0; i < stretch.size(); ++i)
+    stretch[i] = std::exchange(sum[i % kinds], sum[i % kinds] + stretch[i]);
+  MPI_Exscan(sum.data(), before.data(), width, MPI_DOUBLE, MPI_SUM, comm());
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), width, MPI_DOUBLE, MPI_SUM, comm());
+  Real base = 0;
+  for (std::size_t k = 0; k < kinds; ++k) before[k] += std::exchange(base, base + sum[k]);
+  for (std::size_t i = 0; i < stretch.size(); ++i) stretch[i] += before[i % kinds];
+  cells.scatter(stretch, width, count.data());
+  mesh.halo.update(count.data(), width);
+  return count;
+}
+
+/// The cells beyond each owned and halo cell's own internal faces by global_id, [cells][max_faces],
+/// in the order of the faces; -1 fills.
+std::vector<Real> beyond(const Mesh& mesh) {
+  std::vector<Real> others(max_faces * static_cast<std::size_t>(mesh.n_cells), -1);
+  std::vector<std::int8_t> n(static_cast<std::size_t>(mesh.n_cells), 0);
+  for (Index f = 0; f < mesh.n_internal; ++f) {
+    const auto P = static_cast<std::size_t>(mesh.owner[f]);
+    others[max_faces * P + static_cast<std::size_t>(n[P]++)] =
+        static_cast<Real>(mesh.global_id[mesh.neighbour[f]]);
+  }
+  mesh.halo.update(others.data(), max_faces);
+  return others;
 }
 
 }  // namespace
 
+/// The items' roots are the places of the stretches.
+struct Layout::Exchange {
+  PetscSF owned = nullptr;  ///< of the items that this rank owns
+  PetscSF all = nullptr;    ///< of all its items
+
+  Exchange() = default;
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+  ~Exchange() {
+    PetscSFDestroy(&owned);  // NOLINT: a destructor has nobody to tell
+    PetscSFDestroy(&all);    // NOLINT: a destructor has nobody to tell
+  }
+};
+
+Layout::~Layout() = default;
+Layout::Layout(Layout&&) noexcept = default;
+Layout& Layout::operator=(Layout&&) noexcept = default;
+
 Layout::Layout(const Mesh& mesh, On on) {
-  if (on == On::cells)
-    place_cells(mesh);
-  else
-    place_faces(mesh, on == On::boundary);
-}
-
-void Layout::place_cells(const Mesh& mesh) {
-  size_ = mesh.n_global;
-  n_local_ = mesh.n_owned;
-  if (ranks() > 1)
-    places_ = collect(std::vector(mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned));
-}
-
-void Layout::place_faces(const Mesh& mesh, bool boundary_only) {
-  const Index first = boundary_only ? mesh.n_internal : 0;
-  n_local_ = size_ = mesh.n_faces - first;
+  if (on == On::cells) {
+    size_ = mesh.n_global, n_local_ = mesh.n_owned;
+  } else {
+    const Index first = on == On::boundary ? mesh.n_internal : 0;
+    n_local_ = mesh.n_faces - first;
+    GlobalIndex owned = 0;
+    for (Index f = first; f < mesh.n_faces; ++f) owned += mesh.owner[f] < mesh.n_owned ? 1 : 0;
+    size_ = global_sum(owned);
+  }
+  const Stretches stretches = Stretches::even(static_cast<Index>(size_));
+  first_ = stretches.first(), mine_ = stretches.mine();
   if (ranks() == 1) return;
-  const std::vector<std::vector<Key>> keys = collect(keys_of_faces(mesh, first));
-  std::vector<std::int8_t> mine(static_cast<std::size_t>(n_local_));
-  for (Index i = 0; i < n_local_; ++i)
-    mine[static_cast<std::size_t>(i)] = mesh.owner[first + i] < mesh.n_owned ? 1 : 0;
-  const std::vector<std::vector<std::int8_t>> owned = collect(mine);
+  if (on == On::cells)
+    connect({mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned});
+  else
+    connect(places_of_faces(mesh, on == On::boundary));
+}
 
-  struct Entry {
-    Key key;
-    std::size_t rank, item;
+/// The complement ~place where another rank owns the face.
+std::vector<GlobalIndex> Layout::places_of_faces(const Mesh& mesh, bool boundary_only) {
+  const std::vector<Real> begin = beginnings(mesh, Layout(mesh, On::cells), boundary_only);
+  const std::size_t kinds = mesh.patches.size() + 1;
+  std::vector<GlobalIndex> places;
+  places.reserve(static_cast<std::size_t>(n_local_));
+  const auto start = [&](Index P, std::size_t kind) {
+    return static_cast<GlobalIndex>(begin[kinds * static_cast<std::size_t>(P) + kind]);
   };
-  std::vector<Entry> entries;
-  places_.resize(keys.size());
-  for (std::size_t r = 0; r < keys.size(); ++r) {
-    places_[r].resize(keys[r].size());
-    for (std::size_t i = 0; i < keys[r].size(); ++i) entries.push_back({keys[r][i], r, i});
+  if (!boundary_only) {
+    const std::vector<Real> others = beyond(mesh);
+    Index twin = 0;  // faces before this one with the same two cells
+    for (Index f = 0; f < mesh.n_internal; ++f) {
+      const Index P = mesh.owner[f], N = mesh.neighbour[f];
+      twin = f > 0 && mesh.owner[f - 1] == P && mesh.neighbour[f - 1] == N ? twin + 1 : 0;
+      const auto row = others.begin() + static_cast<std::ptrdiff_t>(max_faces) * P;
+      const auto at = std::find(row, row + max_faces, static_cast<Real>(mesh.global_id[N]));
+      const GlobalIndex place = start(P, 0) + (at - row) + twin;
+      places.push_back(P < mesh.n_owned ? place : ~place);
+    }
   }
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.key < b.key; });
-  GlobalIndex place = -1;
-  const Key* last = nullptr;
-  for (const Entry& e : entries) {
-    if (last == nullptr || e.key != *last) ++place;
-    last = &e.key;
-    places_[e.rank][e.item] = owned[e.rank][e.item] != 0 ? place : ~place;
+  for (std::size_t p = 0; p + 1 < kinds; ++p) {
+    Index before = -1, k = 0;
+    for (Index f = mesh.patches[p].begin; f < mesh.patches[p].end; ++f) {
+      k = mesh.owner[f] == before ? k + 1 : 0;
+      before = mesh.owner[f];
+      places.push_back(start(before, p + 1) + k);
+    }
   }
-  size_ = place + 1;
-  MPI_Bcast(&size_, 1, MPI_INT64_T, 0, comm());
+  return places;
+}
+
+void Layout::connect(const std::vector<GlobalIndex>& places) {
+  exchange_ = std::make_unique<Exchange>();
+  const Stretches stretches = Stretches::even(static_cast<Index>(size_));
+  for (const bool owned : {true, false}) {
+    std::vector<PetscInt> leaf;
+    std::vector<PetscSFNode> root;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (owned && places[i] < 0) continue;
+      const auto place = static_cast<Index>(places[i] < 0 ? ~places[i] : places[i]);
+      const int holder = stretches.holder(place);
+      leaf.push_back(static_cast<PetscInt>(i));
+      root.push_back({holder, place - stretches.begin[static_cast<std::size_t>(holder)]});
+    }
+    PetscSF& sf = owned ? exchange_->owned : exchange_->all;
+    FSI_PETSC(PetscSFCreate(comm(), &sf));
+    FSI_PETSC(PetscSFSetGraph(sf, static_cast<PetscInt>(mine_), static_cast<PetscInt>(leaf.size()),
+                              leaf.data(), PETSC_COPY_VALUES, root.data(), PETSC_COPY_VALUES));
+    FSI_PETSC(PetscSFSetUp(sf));
+  }
 }
 
 std::span<const Real> Layout::gather(const Real* values, int width, std::vector<Real>& room) const {
-  const auto w = static_cast<std::size_t>(width);
-  if (ranks() == 1) return {values, static_cast<std::size_t>(size_) * w};
-  if (rank() != 0) {
-    MPI_Send(values, n_local_ * width, MPI_DOUBLE, 0, tag, comm());
-    return {};
-  }
-  std::vector<Real> other;
-  room.resize(static_cast<std::size_t>(size_) * w);
-  for (std::size_t r = 0; r < places_.size(); ++r) {
-    const std::vector<GlobalIndex>& places = places_[r];
-    const Real* from = values;
-    if (r > 0) {
-      other.resize(places.size() * w);
-      MPI_Recv(other.data(), static_cast<int>(other.size()), MPI_DOUBLE, static_cast<int>(r), tag,
-               comm(), MPI_STATUS_IGNORE);
-      from = other.data();
-    }
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i] >= 0)
-        std::copy_n(from + i * w, w, room.begin() + static_cast<std::ptrdiff_t>(w) * places[i]);
-  }
+  const auto n = static_cast<std::size_t>(mine_) * static_cast<std::size_t>(width);
+  if (exchange_ == nullptr) return {values, n};
+  room.resize(n);
+  const Unit unit(width);
+  FSI_PETSC(PetscSFReduceBegin(exchange_->owned, unit, values, room.data(), MPI_REPLACE));
+  FSI_PETSC(PetscSFReduceEnd(exchange_->owned, unit, values, room.data(), MPI_REPLACE));
   return room;
 }
 
-void Layout::scatter(std::span<const Real> all, int width, Real* values) const {
-  const auto w = static_cast<std::size_t>(width);
-  if (ranks() == 1) {
-    std::copy(all.begin(), all.end(), values);
+void Layout::scatter(std::span<const Real> stretch, int width, Real* values) const {
+  if (exchange_ == nullptr) {
+    std::copy(stretch.begin(), stretch.end(), values);
     return;
   }
-  if (rank() != 0) {
-    MPI_Recv(values, n_local_ * width, MPI_DOUBLE, 0, tag, comm(), MPI_STATUS_IGNORE);
-    return;
-  }
-  std::vector<Real> other;
-  for (std::size_t r = 0; r < places_.size(); ++r) {
-    const std::vector<GlobalIndex>& places = places_[r];
-    if (r > 0) other.resize(places.size() * w);
-    Real* to = r > 0 ? other.data() : values;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const GlobalIndex place = places[i] >= 0 ? places[i] : ~places[i];
-      std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(w) * place, w, to + i * w);
-    }
-    if (r > 0)
-      MPI_Send(to, static_cast<int>(other.size()), MPI_DOUBLE, static_cast<int>(r), tag, comm());
-  }
+  const Unit unit(width);
+  FSI_PETSC(PetscSFBcastBegin(exchange_->all, unit, stretch.data(), values, MPI_REPLACE));
+  FSI_PETSC(PetscSFBcastEnd(exchange_->all, unit, stretch.data(), values, MPI_REPLACE));
 }
 
 void require_finite(const std::string& name, const Real* values, int width, On on,

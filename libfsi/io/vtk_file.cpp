@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/io/collect.hpp"
 #include "libfsi/io/file.hpp"
+#include "libfsi/io/shared_file.hpp"
 
 namespace fsi::io {
 namespace {
@@ -33,11 +35,6 @@ void head_vtk(Hdf5Image& image) {
   image.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
 }
 
-std::size_t bytes_of(const VtkMesh& mesh) {
-  return 8 * (mesh.points.size() + mesh.connectivity.size() + mesh.offsets.size()) +
-         mesh.types.size();
-}
-
 void add(Hdf5Image& image, const VtkMesh& mesh) {
   const auto count = [](std::size_t n) { return std::array{static_cast<std::int64_t>(n)}; };
   image.dataset("/VTKHDF/NumberOfPoints", count(mesh.points.size() / 3));
@@ -49,11 +46,6 @@ void add(Hdf5Image& image, const VtkMesh& mesh) {
   image.dataset("/VTKHDF/Types", mesh.types);
 }
 
-std::string put(const std::string& path, Hdf5Image& image) {
-  const Bytes bytes = image.bytes();
-  return bytes.empty() ? "HDF5 could not make it" : replace_file(path, {bytes}, Durable::no);
-}
-
 void agree(const std::string& file, const std::string& reason) {
   const std::string shared = broadcast(reason);
   if (!shared.empty())
@@ -62,24 +54,25 @@ void agree(const std::string& file, const std::string& reason) {
 
 void write_cells(const std::string& path, const Mesh& mesh, std::span<const Index> cells,
                  std::span<const CellFigure> figures) {
-  const VtkMesh part = vtk_mesh(mesh, cells);
+  const VtkMesh part = vtk_cells(mesh, cells);
   std::vector<Real> ids(static_cast<std::size_t>(mesh.n_owned));
   for (Index c = 0; c < mesh.n_owned; ++c) ids[c] = static_cast<Real>(mesh.global_id[c]);
   std::vector<CellFigure> all{{"cell", ids}};
   all.insert(all.end(), figures.begin(), figures.end());
-  Hdf5Image image(bytes_of(part) + 8 * all.size() * part.types.size());
+  std::optional<Hdf5Image> image;
   if (rank() == 0) {
-    head_vtk(image);
-    add(image, part);
-    image.group("/VTKHDF/CellData");
+    image.emplace();
+    head_vtk(*image);
+    add(*image, part);
+    image->group("/VTKHDF/CellData");
   }
   for (const CellFigure& figure : all) {
     const std::vector<Real> values = in_file_order(mesh, cells, figure.values);
-    if (rank() == 0) image.dataset("/VTKHDF/CellData/" + figure.name, values);
+    if (rank() == 0) image->dataset("/VTKHDF/CellData/" + figure.name, values);
   }
-  std::string reason;
-  if (rank() == 0) reason = put(path, image);
-  agree(path, reason);
+  if (rank() == 0) image->close();
+  SharedFile file(path);
+  agree(path, file.finish(image ? &*image : nullptr, Durable::no, nullptr));
 }
 
 }  // namespace fsi::io

@@ -12,12 +12,8 @@ namespace fsi::io {
 /// Makes /VTKHDF a group that VTK reads as an unstructured grid, format 1.0.
 void head_vtk(Hdf5Image& image);
 
-/// The mesh's datasets in /VTKHDF, and about how many bytes they take.
+/// The mesh's datasets in /VTKHDF.
 void add(Hdf5Image& image, const VtkMesh& mesh);
-std::size_t bytes_of(const VtkMesh& mesh);
-
-/// One rank. Puts the image where `path` is; returns the reason it failed, "" when it did not.
-std::string put(const std::string& path, Hdf5Image& image);
 
 /// Collective. Rank 0's reason becomes everybody's Error{io} that names the file.
 void agree(const std::string& file, const std::string& reason);

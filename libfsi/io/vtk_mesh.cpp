@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
-#include "libfsi/io/collect.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/cells.hpp"
+#include "libfsi/mesh/exchange.hpp"
 
 namespace fsi::io {
 namespace {
@@ -29,120 +30,133 @@ std::uint8_t type_of(int dim, std::size_t corners) {
   }
 }
 
-/// What a rank tells of its owned cells.
-struct Part {
-  std::vector<GlobalIndex> id;  // [cells]
-  std::vector<Index> first;     // [cells + 1] where a cell's corners begin
-  std::vector<Index> corners;   // into points
-  std::vector<Vec3> points;
+// VTK turns the two triangles of a wedge outward.
+constexpr std::array<std::size_t, 6> wedge{0, 2, 1, 3, 5, 4};
+
+/// A point and a cell on their way to the ranks in whose stretches they lie.
+struct PlacedPoint {
+  Vec3 x;
+  Index id;
+};
+struct PlacedCell {
+  GlobalIndex id;
+  std::array<std::int64_t, max_corners> points;
+  std::int32_t corners;
 };
 
-Part part_of(const Mesh& mesh, std::span<const Index> cells) {
-  Part part;
-  part.first.push_back(0);
-  for (const Index c : cells) {
-    part.id.push_back(mesh.global_id[c]);
-    const auto corners = mesh.cell_points[c];
-    part.corners.insert(part.corners.end(), corners.begin(), corners.end());
-    part.first.push_back(static_cast<Index>(part.corners.size()));
-  }
-  std::vector<Index> number(mesh.points.size(), -1);
-  for (Index& p : part.corners) {
-    Index& n = number[static_cast<std::size_t>(p)];
-    if (n < 0) {
-      n = static_cast<Index>(part.points.size());
-      part.points.push_back(mesh.points[static_cast<std::size_t>(p)]);
-    }
-    p = n;
-  }
-  return part;
+/// The sum of what the ranks before this one have.
+std::int64_t before(std::size_t mine) {
+  auto count = static_cast<std::int64_t>(mine);
+  std::int64_t sum = 0;
+  MPI_Exscan(&count, &sum, 1, MPI_INT64_T, MPI_SUM, comm());
+  return rank() == 0 ? 0 : sum;
 }
 
-/// For each point the lowest number of a point at the same place.
-std::vector<std::int64_t> same_place(const std::vector<Vec3>& points) {
-  const auto place = [&](std::int64_t i) {
-    const Vec3& x = points[static_cast<std::size_t>(i)];
-    return std::tuple(x.x, x.y, x.z);
+/// Numbers the points of owned cells in the order of the mesh file; fills this rank's stretch of
+/// them. Returns the number of each local point; -1 where no owned cell has it.
+std::vector<std::int64_t> number_points(const Mesh& mesh, VtkMesh& vtk) {
+  Index ids = 0;
+  for (const Index id : mesh.point_id) ids = std::max(ids, id + 1);
+  MPI_Allreduce(MPI_IN_PLACE, &ids, 1, MPI_INT32_T, MPI_MAX, comm());
+  const Stretches where = Stretches::even(ids);
+  std::vector<std::int64_t> number(mesh.points.size(), -1);
+  for (Index i = 0; i < mesh.cell_points.offset[mesh.n_owned]; ++i)
+    number[static_cast<std::size_t>(mesh.cell_points.index[i])] = 0;
+  std::vector<std::vector<PlacedPoint>> to(static_cast<std::size_t>(ranks()));
+  std::vector<std::vector<std::size_t>> asked(to.size());
+  for (std::size_t p = 0; p < number.size(); ++p) {
+    if (number[p] < 0) continue;
+    const auto holder = static_cast<std::size_t>(where.holder(mesh.point_id[p]));
+    to[holder].push_back({mesh.points[p], mesh.point_id[p]}), asked[holder].push_back(p);
+  }
+  const Received<PlacedPoint> came = exchange(std::move(to));
+  std::vector<std::int64_t> number_of(static_cast<std::size_t>(where.mine()), -1);
+  std::vector<Vec3> x(number_of.size());
+  const auto at = [&](const PlacedPoint& point) {
+    return static_cast<std::size_t>(point.id - where.first());
   };
-  std::vector<std::int64_t> order(points.size()), lowest(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return std::tuple(place(a), a) < std::tuple(place(b), b);
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool again = i > 0 && place(order[i]) == place(order[i - 1]);
-    lowest[static_cast<std::size_t>(order[i])] =
-        again ? lowest[static_cast<std::size_t>(order[i - 1])] : order[i];
+  for (const PlacedPoint& point : came.items) number_of[at(point)] = 0, x[at(point)] = point.x;
+  std::int64_t next = before(static_cast<std::size_t>(std::ranges::count(number_of, 0)));
+  for (std::size_t i = 0; i < number_of.size(); ++i) {
+    if (number_of[i] < 0) continue;
+    number_of[i] = next++;
+    for (int k = 0; k < 3; ++k) vtk.points.push_back(x[i][k]);
   }
-  return lowest;
+  std::vector<std::vector<std::int64_t>> told(static_cast<std::size_t>(ranks()));
+  for (std::size_t r = 0; r < told.size(); ++r)
+    for (int i = came.begin[r]; i < came.begin[r + 1]; ++i)
+      told[r].push_back(number_of[at(came.items[static_cast<std::size_t>(i)])]);
+  const Received<std::int64_t> answers = exchange(std::move(told));
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    auto answer = answers.items.begin() + answers.begin[r];
+    for (const std::size_t p : asked[r]) number[p] = *answer++;
+  }
+  return number;
 }
 
-/// The parts as one, cells still in the order of the ranks.
-Part joined(std::vector<Part> parts) {
-  Part all = std::move(parts.front());
-  for (std::size_t r = 1; r < parts.size(); ++r) {
-    const Part& part = parts[r];
-    const auto base = static_cast<Index>(all.points.size()), start = all.first.back();
-    all.id.insert(all.id.end(), part.id.begin(), part.id.end());
-    all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-    for (std::size_t c = 1; c < part.first.size(); ++c) all.first.push_back(start + part.first[c]);
-    for (const Index p : part.corners) all.corners.push_back(base + p);
+/// The cells of this rank's stretch, in file order.
+std::vector<PlacedCell> placed_cells(const Mesh& mesh, const std::vector<std::int64_t>& number) {
+  const Stretches where = Stretches::even(static_cast<Index>(mesh.n_global));
+  std::vector<std::vector<PlacedCell>> to(static_cast<std::size_t>(ranks()));
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    PlacedCell cell{mesh.global_id[c], {}, 0};
+    for (const Index p : mesh.cell_points[c])
+      cell.points[static_cast<std::size_t>(cell.corners++)] = number[static_cast<std::size_t>(p)];
+    to[static_cast<std::size_t>(where.holder(static_cast<Index>(cell.id)))].push_back(cell);
   }
-  return all;
-}
-
-/// The cells by their number in the mesh file, points numbered as they come.
-VtkMesh in_file_order(const Part& all, int dim) {
-  const std::vector<std::int64_t> lowest = same_place(all.points);
-  std::vector<std::size_t> cell(all.id.size());
-  std::iota(cell.begin(), cell.end(), 0);
-  std::ranges::sort(cell, {}, [&](std::size_t i) { return all.id[i]; });
-  std::vector<std::int64_t> number(all.points.size(), -1);
-  VtkMesh mesh;
-  mesh.connectivity.reserve(all.corners.size());
-  mesh.offsets.reserve(cell.size() + 1);
-  mesh.types.reserve(cell.size());
-  mesh.offsets.push_back(0);
-  for (const std::size_t i : cell) {
-    const auto n = static_cast<std::size_t>(all.first[i + 1] - all.first[i]);
-    for (std::size_t k = 0; k < n; ++k) {
-      // VTK turns the two triangles of a wedge outward: 0 2 1, 3 5 4.
-      constexpr std::array<std::size_t, 6> wedge{0, 2, 1, 3, 5, 4};
-      const std::size_t corner = static_cast<std::size_t>(all.first[i]) + (n == 6 ? wedge[k] : k);
-      const auto point = static_cast<std::size_t>(all.corners[corner]);
-      std::int64_t& p = number[static_cast<std::size_t>(lowest[point])];
-      if (p < 0) {
-        p = static_cast<std::int64_t>(mesh.points.size() / 3);
-        for (int a = 0; a < 3; ++a) mesh.points.push_back(all.points[point][a]);
-      }
-      mesh.connectivity.push_back(p);
-    }
-    mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
-    mesh.types.push_back(type_of(dim, n));
-  }
-  return mesh;
+  std::vector<PlacedCell> cells = exchange(std::move(to)).items;
+  std::ranges::sort(cells, {}, &PlacedCell::id);
+  return cells;
 }
 
 }  // namespace
 
 VtkMesh vtk_mesh(const Mesh& mesh) {
-  std::vector<Index> all(static_cast<std::size_t>(mesh.n_owned));
-  std::iota(all.begin(), all.end(), 0);
-  return vtk_mesh(mesh, all);
+  VtkMesh vtk;
+  const std::vector<std::int64_t> number = number_points(mesh, vtk);
+  for (const PlacedCell& cell : placed_cells(mesh, number)) {
+    const auto n = static_cast<std::size_t>(cell.corners);
+    vtk.offsets.push_back(static_cast<std::int64_t>(vtk.connectivity.size()));
+    for (std::size_t k = 0; k < n; ++k) {
+      vtk.connectivity.push_back(cell.points[n == 6 ? wedge[k] : k]);
+    }
+    vtk.types.push_back(type_of(mesh.dim, n));
+  }
+  if (rank() + 1 == ranks())
+    vtk.offsets.push_back(static_cast<std::int64_t>(vtk.connectivity.size()));
+  const std::int64_t first = before(vtk.connectivity.size());
+  for (std::int64_t& offset : vtk.offsets) offset += first;
+  return vtk;
 }
 
-VtkMesh vtk_mesh(const Mesh& mesh, std::span<const Index> cells) {
-  std::vector<Part> parts;
-  {
-    const Part mine = part_of(mesh, cells);
-    auto ids = collect(mine.id);
-    auto firsts = collect(mine.first), corners = collect(mine.corners);
-    auto points = collect(mine.points);
-    for (std::size_t r = 0; r < ids.size(); ++r)
-      parts.push_back(
-          {std::move(ids[r]), std::move(firsts[r]), std::move(corners[r]), std::move(points[r])});
+VtkMesh vtk_cells(const Mesh& mesh, std::span<const Index> cells) {
+  std::vector<Real> mine;  // of each cell its number in the file, its corners and where they are
+  for (const Index c : cells) {
+    const auto corners = mesh.cell_points[c];
+    mine.push_back(static_cast<Real>(mesh.global_id[c]));
+    mine.push_back(static_cast<Real>(corners.size()));
+    for (const Index p : corners)
+      for (int i = 0; i < 3; ++i) mine.push_back(mesh.points[p][i]);
   }
-  return parts.empty() ? VtkMesh{} : in_file_order(joined(std::move(parts)), mesh.dim);
+  const std::vector<Real> all = gathered(mine);
+  std::vector<std::size_t> begin;
+  for (std::size_t at = 0; at < all.size(); at += 2 + 3 * static_cast<std::size_t>(all[at + 1]))
+    begin.push_back(at);
+  std::ranges::sort(begin, {}, [&](std::size_t at) { return all[at]; });
+  VtkMesh vtk;
+  for (const std::size_t at : begin) {
+    const auto n = static_cast<std::size_t>(all[at + 1]);
+    vtk.offsets.push_back(static_cast<std::int64_t>(vtk.connectivity.size()));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t x = at + 2 + 3 * (n == 6 ? wedge[k] : k);
+      vtk.connectivity.push_back(static_cast<std::int64_t>(vtk.connectivity.size()));
+      vtk.points.insert(vtk.points.end(), all.begin() + static_cast<std::ptrdiff_t>(x),
+                        all.begin() + static_cast<std::ptrdiff_t>(x) + 3);
+    }
+    vtk.types.push_back(type_of(mesh.dim, n));
+  }
+  vtk.offsets.push_back(static_cast<std::int64_t>(vtk.connectivity.size()));
+  return vtk;
 }
 
 }  // namespace fsi::io

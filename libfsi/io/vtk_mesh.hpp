@@ -9,18 +9,21 @@
 
 namespace fsi::io {
 
-/// Cells in file order with the points they use, each once, numbered as the cells first name them:
-/// the same on any number of ranks.
+/// A stretch of the cells in file order and of the points they use, each once, numbered in the
+/// order of the mesh file: rank after rank the same on any number of ranks.
 struct VtkMesh {
   std::vector<Real> points;                ///< [points * 3]
   std::vector<std::int64_t> connectivity;  ///< points of the cells, in VTK's order
-  std::vector<std::int64_t> offsets;       ///< [cells + 1] where a cell's points begin
-  std::vector<std::uint8_t> types;         ///< [cells] VTK's number of the cell type
+  /// [cells, on the last rank + 1] where a cell's points begin in the connectivity of all ranks
+  std::vector<std::int64_t> offsets;
+  std::vector<std::uint8_t> types;  ///< [cells] VTK's number of the cell type
 };
 
-/// Collective. Rank 0 gets the mesh, the others an empty one.
+/// Collective. Every rank gets its stretch.
 VtkMesh vtk_mesh(const Mesh& mesh);
-/// The same of some of the owned cells of each rank.
-VtkMesh vtk_mesh(const Mesh& mesh, std::span<const Index> cells);
+
+/// Collective. Every rank gets all of the listed owned cells of each rank, in file order, each with
+/// points of its own: for a few.
+VtkMesh vtk_cells(const Mesh& mesh, std::span<const Index> cells);
 
 }  // namespace fsi::io

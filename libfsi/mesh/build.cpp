@@ -178,6 +178,7 @@ Mesh build_mesh(CellList list) {
   mesh.points = std::move(list.points);
   mesh.cell_points = std::move(list.corners);
   mesh.vertex = std::move(list.vertex);
+  mesh.point_id = std::move(list.point_id), mesh.vertex_id = std::move(list.vertex_id);
   mesh.total_volume = exact_sum({mesh.V.data(), static_cast<std::size_t>(mesh.n_owned)});
   return mesh;
 }

@@ -14,15 +14,17 @@ namespace fsi {
 /// How many periods lie between a point and the vertex it stands for.
 using Offset = std::array<std::int8_t, 3>;
 
-/// Cells with all that a Mesh is built from: all cells of the file on rank 0 before the division,
-/// afterwards a rank's owned cells and its halo, each sorted by global_id.
+/// Cells with all that a Mesh is built from: before the division a stretch of the file (see
+/// distribute), afterwards a rank's owned cells and its halo, each sorted by global_id.
 struct CellList {
   int dim = 3;
   std::vector<Vec3> points;
   std::vector<Index> vertex;    ///< [points] in [0, points); the same for points joined by a period
   std::vector<Offset> offset;   ///< [points] x - x(vertex) = sum_k offset[k] periods[k]
-  std::vector<CellType> types;  ///< [cells]
-  Csr corners;                  ///< [cells] points, ordered as Shape has them
+  std::vector<Index> point_id;  ///< [points] number in the file; set by the division
+  std::vector<Index> vertex_id;  ///< [points] number in the file of the point `vertex` stands for
+  std::vector<CellType> types;   ///< [cells]
+  Csr corners;                   ///< [cells] points, ordered as Shape has them
   std::vector<std::array<std::int8_t, max_faces>> face_patch;  ///< [cells] -1: internal
   std::vector<GlobalIndex> global_id;                          ///< [cells]
   Index n_owned = 0;

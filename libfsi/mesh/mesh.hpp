@@ -1,6 +1,7 @@
 #pragma once
 // The mesh as kernels see it: flat arrays, filled once, never changed.
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "libfsi/core/types.hpp"
 #include "libfsi/mesh/cell_type.hpp"
 #include "libfsi/mesh/halo.hpp"
+
+struct _p_DM;  // PETSc's: its DM is a _p_DM*
 
 namespace fsi {
 
@@ -68,9 +71,12 @@ struct Mesh {
   std::vector<std::int8_t> cell_neighbour_shift;
 
   // points
-  std::vector<Vec3> points;   ///< corners of owned and halo cells
-  Csr cell_points;            ///< [n_cells] corners, in the order of the gmsh format
-  std::vector<Index> vertex;  ///< [points] the same number for points joined by a period
+  std::vector<Vec3> points;     ///< corners of owned and halo cells
+  Csr cell_points;              ///< [n_cells] corners, in the order of the gmsh format
+  std::vector<Index> vertex;    ///< [points] the same number for points joined by a period
+  std::vector<Index> point_id;  ///< [points] position of the point in the mesh file, from 0
+  std::vector<Index>
+      vertex_id;  ///< [points] that of the one point all joined by a period stand for
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
 
   Halo halo;
@@ -94,6 +100,16 @@ struct Mesh {
   }
   /// The patch of that name; throws Error{input} that lists the names of the mesh.
   const Patch& patch(const std::string& name) const;
+
+  /// Collective at its first call, which makes it: the mesh as a DMPlex of PETSc, which this owns.
+  /// Cell c < n_owned is cell c of the DM; on more than one rank the cells that share a vertex with
+  /// one of them follow as overlap. Faces and edges are there; the label "Face Sets" holds 1 + its
+  /// patch on a boundary face, a label of the patch's name the same. Points joined by a period are
+  /// one vertex, and cells at the seam have coordinates of their own (DMGetCellCoordinates).
+  _p_DM* dm() const;
+
+ private:
+  mutable std::shared_ptr<_p_DM> plex_;
 };
 
 }  // namespace fsi

@@ -1,16 +1,28 @@
 #pragma once
 // The division of a mesh over the ranks, by DMPlex and a graph partitioner.
 
+#include <functional>
 #include <string>
 
 #include "libfsi/mesh/cell_list.hpp"
 
 namespace fsi {
 
-/// Collective. Takes all cells on rank 0 (the other ranks' `whole` is ignored) and gives each rank
-/// its own and every cell that shares a vertex with one of them. partitioner: metis, ptscotch or
-/// simple; Error{input} for any other. metis avoids to cut across `along`. One rank: `whole`
-/// itself.
-CellList distribute(CellList whole, const std::string& partitioner, const Vec3& along = {});
+/// Work of the cell at this centre beyond that of a fluid cell; 0 where there is none.
+using CellLoad = std::function<Real(const Vec3&)>;
+
+/// How the cells are divided.
+struct Division {
+  std::string partitioner = "metis";  ///< or ptscotch, simple
+  Vec3 along = {};                    ///< direction that metis avoids to cut across; zero: none
+  CellLoad load;                      ///< balanced by metis beside the cells; empty: none
+};
+
+/// Collective. From the mesh as it is read to its division. `slab`: this rank's stretch of the
+/// cells and of the points, both in the order of the file, corners and vertices by their number in
+/// the file; all of it on rank 0, or as much on every rank. What a CellList has the same on every
+/// rank is taken from rank 0. Returns this rank's cells and every cell that shares a vertex with
+/// one of them. Error{input} for an unknown partitioner.
+CellList distribute(CellList slab, const Division& how);
 
 }  // namespace fsi

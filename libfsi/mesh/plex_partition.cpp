@@ -1,7 +1,6 @@
 #include "libfsi/mesh/plex_partition.hpp"
 
-#include <metis.h>
-#include <petsc/private/partitionerimpl.h>
+#include <petscdmplex.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,61 +9,12 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/divide.hpp"
 
 namespace fsi {
 namespace {
 
-static_assert(sizeof(idx_t) == sizeof(PetscInt));
-
-/// Parts of the n graph vertices; balanced first, then with few edges cut by weight (none: all
-/// alike). Empty on failure.
-std::vector<idx_t> divide(PetscInt n_parts, PetscInt n, PetscInt start[], PetscInt adjacency[],
-                          PetscInt* weight) {
-  std::vector<idx_t> parts(static_cast<std::size_t>(n), 0);
-  if (n_parts == 1) return parts;
-  if (n <= n_parts) {  // METIS divides no graph into single vertices
-    std::iota(parts.begin(), parts.end(), 0);
-    return parts;
-  }
-  idx_t options[METIS_NOPTIONS], constraints = 1, cut = 0;
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;  // the same parts every time
-  const bool few = n_parts <= 8;   // recursive bisection is the better one for few parts
-  const auto method = few ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int code = method(&n, &constraints, start, adjacency, nullptr, nullptr, weight, &n_parts,
-                          nullptr, nullptr, options, &cut, parts.data());
-  if (code != METIS_OK) parts.clear();
-  return parts;
-}
-
-PetscErrorCode partition(PetscPartitioner part, PetscInt n_parts, PetscInt n, PetscInt start[],
-                         PetscInt adjacency[], PetscSection, PetscSection, PetscSection sizes,
-                         IS* points) noexcept {
-  PetscFunctionBegin;
-  PetscMPIInt holders = n > 0 ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &holders, 1, MPI_INT, MPI_SUM, PetscObjectComm((PetscObject)part));
-  PetscCheck(holders <= 1, PETSC_COMM_SELF, PETSC_ERR_SUP, "the graph must lie on one rank");
-  auto& weights = *static_cast<std::vector<PetscInt>*>(part->data);
-  const std::vector<idx_t> parts =
-      divide(n_parts, n, start, adjacency, weights.empty() ? nullptr : weights.data());
-  PetscCheck(parts.size() == static_cast<std::size_t>(n), PETSC_COMM_SELF, PETSC_ERR_LIB,
-             "METIS failed");
-  for (const idx_t p : parts) PetscCall(PetscSectionAddDof(sizes, p, 1));
-  PetscCall(PetscSectionSetUp(sizes));
-  std::vector<PetscInt> order(parts.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](PetscInt a, PetscInt b) { return parts[a] < parts[b]; });
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, order.data(), PETSC_COPY_VALUES, points));
-  PetscFunctionReturn(0);
-}
-
-/// The constructor PETSc calls for "metis".
-PetscErrorCode create_metis(PetscPartitioner part) noexcept {
-  part->noGraph = PETSC_FALSE;
-  part->ops->partition = partition;
-  return 0;
-}
+static_assert(sizeof(PetscInt) == sizeof(std::int32_t));
 
 /// Mean of the corners of a cell, and of one of its faces.
 Vec3 middle(const CellList& list, Index cell) {
@@ -79,65 +29,195 @@ Vec3 middle(const CellList& list, Half half) {
   return sum / static_cast<Real>(corners.size());
 }
 
-/// 1 where the way from the cell to the face is normal to the unit vector, `slender` along it.
-PetscInt weight_of(const CellList& whole, Index half, const Vec3& axis) {
-  const Vec3 way = middle(whole, Half(half)) - middle(whole, Half(half).cell);
-  const Real cosine = dot(way, axis) / norm(way);
-  return 1 + std::lround((slender - 1) * cosine * cosine);
+/// A load in whole numbers, as METIS takes it: eighths, less than a thousand.
+std::int32_t load_units(Real load) {
+  return static_cast<std::int32_t>(std::lround(8 * std::clamp(load, 0.0, 1000.0)));
 }
 
-/// Cells that share a face, in the form of a CSR matrix; weights of the faces where `along` is not
-/// zero, the sum of what both cells see.
-struct Graph {
-  std::vector<PetscInt> start{0}, adjacency, weights;
+/// 1 where the way from the cell to the face is normal to the unit vector, `slender` along it.
+std::int32_t weight_of(const CellList& whole, Index half, const Vec3& axis) {
+  const Vec3 way = middle(whole, Half(half)) - middle(whole, Half(half).cell);
+  const Real cosine = dot(way, axis) / norm(way);
+  return 1 + static_cast<std::int32_t>(std::lround((slender - 1) * cosine * cosine));
+}
+
+/// A face as one of its cells tells it to the rank where both meet.
+struct Side {
+  std::array<Index, max_face_corners> key;  // vertices by number in the file, ascending
+  Index cell;                               // number in the file
+  std::int32_t tie;
 };
-Graph graph_of(const CellList& whole, const Vec3& along) {
-  const std::vector<Index> mate = match_faces(whole);
-  const bool weighted = norm(along) > 0;
-  const Vec3 axis = weighted ? along / norm(along) : Vec3{};
-  Graph graph;
-  for (Index c = 0; c < whole.n_cells(); ++c) {
-    for (int f = 0; f < max_faces; ++f) {
-      const Index half = half_of(c, f), other = mate[half];
-      if (other < 0) continue;
-      graph.adjacency.push_back(Half(other).cell);
-      if (weighted)
-        graph.weights.push_back(weight_of(whole, half, axis) + weight_of(whole, other, axis));
+/// What it is told: the cell on the other side (-1: none) and the sum of the ties.
+struct Beyond {
+  Index cell;
+  std::int32_t tie;
+};
+
+std::vector<Beyond> matched(const std::vector<Side>& sides) {
+  std::vector<Beyond> answers(sides.size(), {-1, 0});
+  std::vector<std::size_t> order(sides.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(
+      order, {}, [&](std::size_t i) -> const auto& { return sides[i].key; });
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const std::size_t i = order[k - 1], j = order[k];
+    if (sides[i].key != sides[j].key) continue;
+    const std::int32_t tie = sides[i].tie + sides[j].tie;
+    answers[i] = {sides[j].cell, tie}, answers[j] = {sides[i].cell, tie};
+  }
+  return answers;
+}
+
+/// A side as it is told, on its way to the rank that holds its lowest vertex.
+Side side_of(const CellList& here, Index half, Index first_cell) {
+  const Half h(half);
+  Side side{{-1, -1, -1, -1}, first_cell + h.cell, 0};
+  std::size_t n = 0;
+  for (const std::int8_t i : shape_of(here.types[h.cell]).face_corners(h.face)) {
+    side.key[n++] = here.vertex_id[here.corners[h.cell][i]];
+  }
+  std::ranges::sort(side.key);
+  return side;
+}
+
+/// Collective. For each of the halves without a mate here the cell that has it elsewhere.
+std::vector<Beyond> sought(const CellList& here, const std::vector<Index>& halves,
+                           const Stretches& cells, Index n_vertices, const Vec3& axis) {
+  const Stretches vertices = Stretches::even(n_vertices);
+  std::vector<std::vector<Side>> to(static_cast<std::size_t>(ranks()));
+  std::vector<std::vector<std::size_t>> asked(to.size());
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    Side side = side_of(here, halves[i], cells.first());
+    if (norm(axis) > 0) side.tie = weight_of(here, halves[i], axis);
+    const int holder =
+        vertices.holder(*std::ranges::find_if(side.key, [](Index v) { return v >= 0; }));
+    to[holder].push_back(side), asked[holder].push_back(i);
+  }
+  const Received<Side> sides = exchange(std::move(to));
+  const std::vector<Beyond> found = matched(sides.items);
+  std::vector<std::vector<Beyond>> told;
+  for (std::size_t r = 0; r + 1 < sides.begin.size(); ++r) {
+    told.emplace_back(found.begin() + sides.begin[r], found.begin() + sides.begin[r + 1]);
+  }
+  const Received<Beyond> answers = exchange(std::move(told));
+  std::vector<Beyond> result(halves.size());
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    auto answer = answers.items.begin() + answers.begin[r];
+    for (const std::size_t i : asked[r]) result[i] = *answer++;
+  }
+  return result;
+}
+
+/// The graph of this rank's cells; ties where `along` is not zero, load where there is a function
+/// of it. Neighbours stand in the order of the faces: the same whoever holds the cells.
+Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, const Vec3& along,
+               const CellLoad& load) {
+  const bool tied = norm(along) > 0;
+  const Vec3 axis = tied ? along / norm(along) : Vec3{};
+  const std::vector<Index> mate = match_faces(here);
+  std::vector<Index> open;
+  for (Index c = 0; c < here.n_cells(); ++c) {
+    for (int f = 0; f < shape_of(here.types[c]).faces; ++f) {
+      if (mate[half_of(c, f)] < 0) open.push_back(half_of(c, f));
     }
-    graph.start.push_back(static_cast<PetscInt>(graph.adjacency.size()));
+  }
+  const std::vector<Beyond> beyond = sought(here, open, cells, n_vertices, axis);
+  Graph graph;
+  auto next = beyond.begin();
+  for (Index c = 0; c < here.n_cells(); ++c) {
+    for (int f = 0; f < shape_of(here.types[c]).faces; ++f) {
+      const Index half = half_of(c, f), other = mate[half];
+      const Beyond far = other < 0 ? *next++ : Beyond{cells.first() + Half(other).cell, 0};
+      if (far.cell < 0) continue;
+      graph.neighbours.push_back(far.cell);
+      if (!tied) continue;
+      graph.ties.push_back(other < 0 ? far.tie
+                                     : weight_of(here, half, axis) + weight_of(here, other, axis));
+    }
+    graph.start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
+    if (load) graph.load.push_back(load_units(load(middle(here, c))));
   }
   return graph;
 }
 
-}  // namespace
+/// Collective. Everybody's items, rank after rank, on rank 0.
+std::vector<std::int32_t> gathered(const std::vector<std::int32_t>& mine) {
+  std::vector<std::vector<std::int32_t>> to(static_cast<std::size_t>(ranks()));
+  to[0] = mine;
+  return exchange(std::move(to)).items;
+}
 
-Parts partition_cells(const CellList& whole, const std::string& partitioner, const Vec3& along) {
-  Graph graph;
-  if (rank() == 0) graph = graph_of(whole, along);
+/// Collective. The graphs of all ranks as one, on rank 0.
+Graph gathered(const Graph& mine) {
+  Graph whole;
+  std::vector<std::int32_t> degrees;
+  for (std::int32_t c = 0; c < mine.cells(); ++c) {
+    degrees.push_back(mine.start[c + 1] - mine.start[c]);
+  }
+  for (const std::int32_t degree : gathered(degrees)) {
+    whole.start.push_back(whole.start.back() + degree);
+  }
+  whole.neighbours = gathered(mine.neighbours);
+  whole.ties = gathered(mine.ties), whole.load = gathered(mine.load);
+  if (std::ranges::none_of(whole.load, [](std::int32_t l) { return l > 0; })) whole.load.clear();
+  return whole;
+}
+
+/// Collective. Each rank's stretch of what rank 0 holds.
+std::vector<std::int32_t> scattered(const std::vector<std::int32_t>& all, const Stretches& cells) {
+  std::vector<std::vector<std::int32_t>> to(static_cast<std::size_t>(ranks()));
+  for (std::size_t r = 0; r < to.size() && !all.empty(); ++r) {
+    to[r].assign(all.begin() + cells.begin[r], all.begin() + cells.begin[r + 1]);
+  }
+  return exchange(std::move(to)).items;
+}
+
+/// Part after part, the cells of each.
+Parts sorted(const std::vector<std::int32_t>& part) {
+  Parts parts;
+  parts.sizes.resize(static_cast<std::size_t>(ranks()));
+  for (const std::int32_t p : part) ++parts.sizes[p];
+  parts.cells.resize(part.size());
+  std::iota(parts.cells.begin(), parts.cells.end(), 0);
+  std::ranges::stable_sort(parts.cells, {}, [&](PetscInt c) { return part[c]; });
+  return parts;
+}
+
+/// By a partitioner of PETSc's own.
+Parts partition_by_petsc(Graph graph, const std::string& partitioner) {
   PetscPartitioner part = nullptr;
   PetscSection sizes = nullptr;
   IS cells = nullptr;
-  FSI_PETSC(PetscPartitionerRegister("metis", create_metis));
   FSI_PETSC(PetscPartitionerCreate(comm(), &part));
   FSI_PETSC(PetscPartitionerSetType(part, partitioner.c_str()));
-  if (partitioner == "metis") part->data = &graph.weights;
   FSI_PETSC(PetscSectionCreate(comm(), &sizes));
-  FSI_PETSC(PetscPartitionerPartition(part, ranks(), static_cast<PetscInt>(graph.start.size()) - 1,
-                                      graph.start.data(), graph.adjacency.data(), nullptr, nullptr,
-                                      sizes, &cells));
+  FSI_PETSC(PetscPartitionerPartition(part, ranks(), graph.cells(), graph.start.data(),
+                                      graph.neighbours.data(), nullptr, nullptr, sizes, &cells));
   Parts parts;
-  if (rank() == 0) {
-    parts.sizes.resize(static_cast<std::size_t>(ranks()));
-    for (int r = 0; r < ranks(); ++r) FSI_PETSC(PetscSectionGetDof(sizes, r, &parts.sizes[r]));
-    const PetscInt* list = nullptr;
-    FSI_PETSC(ISGetIndices(cells, &list));
-    parts.cells.assign(list, list + whole.n_cells());
-    FSI_PETSC(ISRestoreIndices(cells, &list));
-  }
+  parts.sizes.resize(static_cast<std::size_t>(ranks()));
+  for (int r = 0; r < ranks(); ++r) FSI_PETSC(PetscSectionGetDof(sizes, r, &parts.sizes[r]));
+  const PetscInt* list = nullptr;
+  FSI_PETSC(ISGetIndices(cells, &list));
+  parts.cells.assign(list, list + graph.cells());
+  FSI_PETSC(ISRestoreIndices(cells, &list));
   FSI_PETSC(ISDestroy(&cells));
   FSI_PETSC(PetscSectionDestroy(&sizes));
   FSI_PETSC(PetscPartitionerDestroy(&part));
   return parts;
+}
+
+}  // namespace
+
+Parts partition_cells(const CellList& here, const Stretches& cells, Index n_vertices,
+                      const Division& how) {
+  Graph graph = graph_of(here, cells, n_vertices, how.along, how.load);
+  if (how.partitioner != "metis") return partition_by_petsc(std::move(graph), how.partitioner);
+  graph = gathered(graph);
+  std::vector<std::int32_t> part;
+  if (rank() == 0) part = divide(graph, ranks());
+  const bool divided = static_cast<Index>(part.size()) == (rank() == 0 ? cells.size() : 0);
+  if (!all_of_ranks(divided)) throw Error(Kind::internal, "METIS could not divide the mesh");
+  return sorted(scattered(part, cells));
 }
 
 }  // namespace fsi

@@ -3,26 +3,25 @@
 
 #include <petscsys.h>
 
-#include <string>
 #include <vector>
 
 #include "libfsi/mesh/cell_list.hpp"
+#include "libfsi/mesh/exchange.hpp"
+#include "libfsi/mesh/plex.hpp"
 
 namespace fsi {
 
-/// The cells of each part, part after part; empty on every rank but the first.
+/// Where this rank's stretch of cells goes: the cells of each part, part after part.
 struct Parts {
   std::vector<PetscInt> sizes;  ///< [ranks]
-  std::vector<PetscInt> cells;
+  std::vector<PetscInt> cells;  ///< counted from the first of the stretch
 };
 
-/// Collective. Divides the graph of cells that share a face (across a period too), which lies on
-/// rank 0, with a partitioner of PETSc: metis (ours), ptscotch or simple. metis avoids cuts across
-/// the direction `along` (zero: none): parts up to about `slender` times as long as wide cost no
-/// more than compact ones.
-Parts partition_cells(const CellList& whole, const std::string& partitioner, const Vec3& along);
-
-/// Weight of a face across `along` against one beside it.
-inline constexpr int slender = 8;
+/// Collective. Divides the graph of cells that share a face (across a period too): metis by
+/// `divide` on rank 0, which has the whole graph for that time (some 60 bytes a cell), with the
+/// load and the direction of `how`; ptscotch and simple, which are PETSc's, each rank with its own
+/// cells and without load. `here`: the stretch of cells with its points; n_vertices: in the file.
+Parts partition_cells(const CellList& here, const Stretches& cells, Index n_vertices,
+                      const Division& how);
 
 }  // namespace fsi

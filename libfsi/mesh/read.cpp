@@ -5,10 +5,11 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/memory.hpp"
-#include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/build.hpp"
 #include "libfsi/mesh/check.hpp"
 #include "libfsi/mesh/gmsh.hpp"
+#include "libfsi/mesh/mesh_file.hpp"
+#include "libfsi/mesh/on_first_rank.hpp"
 #include "libfsi/mesh/plex.hpp"
 
 namespace fsi {
@@ -22,38 +23,28 @@ Error beyond_memory(const std::string& file) {
                            " of memory that this process can have"};
 }
 
-/// Collective. Runs `work` on rank 0; where it throws, every rank throws the same Error.
+/// `work` on a file, whose size is to blame where memory runs out.
 template <class Work>
-void on_first_rank(const std::string& file, const Work& work) {
-  std::string fault;
-  auto kind = static_cast<int>(Kind::internal);
-  if (rank() == 0) {
-    try {
-      work();
-    } catch (const Error& error) {
-      kind = static_cast<int>(error.kind()), fault = error.what();
-    } catch (const std::bad_alloc&) {
-      kind = static_cast<int>(Kind::input), fault = beyond_memory(file).what();
-    } catch (const std::exception& error) {
-      fault = std::string("reading the mesh: ") + error.what();
-    }
+auto within_memory(const std::string& file, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw beyond_memory(file);
   }
-  fault = broadcast(fault);
-  MPI_Bcast(&kind, 1, MPI_INT, 0, comm());
-  if (!fault.empty()) throw Error(static_cast<Kind>(kind), fault);
 }
 
 }  // namespace
 
 Mesh read_mesh(const MeshOptions& options) {
+  const Division how{options.partitioner, options.along, options.load};
+  if (is_mesh_file(options.file))
+    return build_mesh(distribute(read_mesh_tables(options.file, options.periodic), how));
   CellList whole;
-  on_first_rank(options.file,
-                [&] { whole = check_mesh(read_gmsh(options.file), options.periodic); });
-  try {
-    return build_mesh(distribute(std::move(whole), options.partitioner, options.along));
-  } catch (const std::bad_alloc&) {
-    throw beyond_memory(options.file);
-  }
+  on_first_rank([&] {
+    whole = within_memory(options.file,
+                          [&] { return check_mesh(read_gmsh(options.file), options.periodic); });
+  });
+  return within_memory(options.file, [&] { return build_mesh(distribute(std::move(whole), how)); });
 }
 
 }  // namespace fsi

@@ -17,7 +17,8 @@ namespace {
 
 MeshOptions read_mesh_options(Options& options, const Vec3& path) {
   MeshOptions mesh;
-  mesh.file = options.text("mesh", "", "gmsh file, 2.2 or 4.x; a 2-D mesh makes a 2-D run");
+  mesh.file = options.text(
+      "mesh", "", "gmsh file, 2.2 or 4.x, or .h5 of fsi-mesh convert; a 2-D mesh makes a 2-D run");
   mesh.periodic =
       options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
   mesh.partitioner =
@@ -26,7 +27,8 @@ MeshOptions read_mesh_options(Options& options, const Vec3& path) {
   if (mesh.partitioner == "metis")
     mesh.along = options.vec3("mesh_divide_along", path,
                               {.help = "direction the solid travels in: the mesh is divided "
-                                       "lengthwise, so that ranks share the solid; 0,0,0: none",
+                                       "lengthwise, so that ranks share the solid all the way; "
+                                       "0,0,0: none",
                                .unit = ""});
   return mesh;
 }
@@ -120,6 +122,15 @@ std::map<std::string, std::string> lines(const std::string& text) {
   return items;
 }
 
+/// Collective. Cells with their centre in the solid: the most a rank holds over the mean; 0: none.
+Real solid_share(const Mesh& mesh, const shapes::Shape& shape) {
+  const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
+  const auto mine = std::ranges::count_if(centres, [&](const Vec3& x) { return shape(x) < 0; });
+  const GlobalIndex total = global_sum(static_cast<GlobalIndex>(mine));
+  const Real most = global_max(static_cast<Real>(mine));
+  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+}
+
 /// Whether an option tells of the solid's shape and place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
@@ -135,6 +146,12 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.physics = read_physics(options);
   result.flow = read_flow(options);
   result.solid = read_solid(options, result.physics);
+  // What the solid costs is spent in its cells and those its surface cuts; these too are counted
+  // by a margin, as nothing is known of their size here.
+  constexpr Real margin = 0.1;
+  if (result.solid.shape)
+    result.mesh.load = [shape = *result.solid.shape, reach = margin * result.solid.thickness](
+                           const Vec3& x) { return shape(x) < reach ? 1.0 : 0.0; };
   result.time = read_time(options);
   result.output = read_output(options, driver);
   require(options.help() || !result.mesh.file.empty(),
@@ -177,10 +194,12 @@ std::string differences(const std::string& before, const std::string& now) {
 
 void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
   const MeshFigures figures = mesh_figures(mesh, walls_of(which.flow.conditions, mesh));
+  const Real share = ranks() > 1 && which.solid.shape ? solid_share(mesh, *which.solid.shape) : 0;
   if (rank() != 0) return;
   std::printf("%s\n", summary(which.mesh.file, mesh, figures).c_str());
   const std::string past = warning(which.mesh.file, findings(figures));
   if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
+  if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = which.physics;
   if (velocity == 0) {
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");

@@ -10,6 +10,7 @@
 #include "libfsi/core/options.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/io/vtk_file.hpp"
+#include "libfsi/mesh/convert.hpp"
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/solver/mesh_figures.hpp"
 
@@ -246,6 +247,17 @@ Ending check_mesh_file(const std::string& file) {
   tell_of_solver(mesh, treated);
   tell_of_changes(findings(figures));
   if (!wish.worst_file.empty()) write_worst(wish.worst_file, mesh, cells, treated, list);
+  return Ending::complete;
+}
+
+Ending convert_mesh_file(const std::string& from, const std::string& to) {
+  Options options("fsi-mesh convert in.msh out.h5", "a mesh that all ranks read side by side");
+  const std::vector<std::string> periodic =
+      options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
+  if (options.help()) return Ending::complete;
+  options.check_unknown();
+  const std::int64_t cells = convert_mesh(from, to, periodic);
+  if (rank() == 0) std::printf("%s: %lld cells\n", to.c_str(), static_cast<long long>(cells));
   return Ending::complete;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// fsi-mesh check: all that is worth knowing of a mesh before a run.
+// fsi-mesh: all that is worth knowing of a mesh before a run, and its other form.
 
 #include <string>
 #include <vector>
@@ -38,5 +38,9 @@ PatchFigures patch_figures(const Mesh& mesh, const Patch& patch);
 /// Collective. Reads the mesh file and prints its report. Options: -mesh_periodic, -walls, -worst,
 /// -worst_file. Errors: Error{input}.
 Ending check_mesh_file(const std::string& file);
+
+/// Collective. fsi-mesh convert: the gmsh file as one that all ranks read side by side. Option:
+/// -mesh_periodic. Errors: Error{input}, Error{io}.
+Ending convert_mesh_file(const std::string& from, const std::string& to);
 
 }  // namespace fsi

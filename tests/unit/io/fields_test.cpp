@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/io/collect.hpp"
 #include "libfsi/io/hdf5.hpp"
 #include "libfsi/io/vtk_mesh.hpp"
 #include "tests/unit/io/support.hpp"
@@ -53,6 +54,19 @@ Real volume(const VtkMesh& mesh, std::int64_t cell) {
   return six / 6;
 }
 
+/// Collective. All ranks' stretches on rank 0, nothing on the others.
+VtkMesh whole(const Mesh& mesh) {
+  const VtkMesh mine = io::vtk_mesh(mesh);
+  VtkMesh all;
+  const auto join = [](const auto& part, auto& items) {
+    for (const auto& other : io::collect(part))
+      items.insert(items.end(), other.begin(), other.end());
+  };
+  join(mine.points, all.points), join(mine.connectivity, all.connectivity);
+  join(mine.offsets, all.offsets), join(mine.types, all.types);
+  return all;
+}
+
 /// One prism or pyramid as a mesh.
 Mesh single(std::vector<Vec3> points) {
   Mesh mesh;
@@ -60,6 +74,8 @@ Mesh single(std::vector<Vec3> points) {
   mesh.global_id = {rank()};
   for (Index i = 0; i < static_cast<Index>(points.size()); ++i) mesh.cell_points.index.push_back(i);
   mesh.cell_points.offset.push_back(static_cast<Index>(points.size()));
+  for (const Index i : mesh.cell_points.index)
+    mesh.point_id.push_back(i + rank() * static_cast<Index>(points.size()));
   mesh.points = std::move(points);
   return mesh;
 }
@@ -72,13 +88,13 @@ TEST(VtkMesh, FacesLookOutward) {
           0.5),
       std::pair(single({{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}, {0.5, 0.5, z + 1}}), 1. / 3)};
   for (const auto& [mesh, V] : meshes) {
-    const VtkMesh vtk = io::vtk_mesh(mesh);
+    const VtkMesh vtk = whole(mesh);
     for (std::size_t c = 0; c < vtk.types.size(); ++c)
       EXPECT_NEAR(volume(vtk, static_cast<std::int64_t>(c)), V, 1e-15);
   }
   for (const bool simplex : {false, true}) {
     const Mesh mesh = test::read_box({.n = {3, 2, 2}, .simplex = simplex});
-    const VtkMesh vtk = io::vtk_mesh(mesh);
+    const VtkMesh vtk = whole(mesh);
     Real total = 0;
     for (std::size_t c = 0; c < vtk.types.size(); ++c) {
       const Real V = volume(vtk, static_cast<std::int64_t>(c));
@@ -91,11 +107,11 @@ TEST(VtkMesh, FacesLookOutward) {
 
 TEST(VtkMesh, PointsAreSharedAndEachIsThereOnce) {
   const Mesh mesh = test::read_box({.n = {3, 2, 2}, .periodic = {"left", "right"}});
-  const VtkMesh vtk = io::vtk_mesh(mesh);
+  const VtkMesh vtk = whole(mesh);
   EXPECT_EQ(vtk.points.size(), rank() == 0 ? 3U * 4 * 3 * 3 : 0U);
   EXPECT_EQ(vtk.types.size(), rank() == 0 ? 12U : 0U);
   const Mesh plane = test::read_box({.n = {3, 2, 0}, .simplex = true});
-  const VtkMesh flat = io::vtk_mesh(plane);
+  const VtkMesh flat = whole(plane);
   EXPECT_EQ(flat.types, std::vector<std::uint8_t>(rank() == 0 ? 12 : 0, 5));
 }
 

@@ -147,6 +147,36 @@ TEST(Division, LengthwiseEveryRankHasCellsAllAlong) {
   }
 }
 
+/// Cells within a ball at x, the most a rank owns over the mean.
+Real share_of_ball(const Mesh& mesh, Real x) {
+  const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
+  const auto mine = std::ranges::count_if(centres, [&](const Vec3& c) {
+    return norm(c - Vec3{x, 0.5, 0.5}) < 0.3;
+  });
+  const GlobalIndex all = global_sum(static_cast<GlobalIndex>(mine));
+  return global_max(static_cast<Real>(mine)) * ranks() / static_cast<Real>(all);
+}
+
+TEST(Division, EveryRankHasItsShareOfALoadWhereverItGoes) {
+  Block block;
+  block.n = {24, 16, 16};
+  MeshOptions options;
+  options.along = {1, 0, 0};
+  options.load = [](const Vec3& c) { return norm(c - Vec3{0.3, 0.5, 0.5}) < 0.3 ? 1.0 : 0.0; };
+  {
+    const TextFile file(BlockText(block).text());
+    options.file = file.path();
+    const Mesh mesh = read_mesh(options);
+    const Real cells = global_max(static_cast<Real>(mesh.n_owned)) * ranks();
+    EXPECT_LT(cells, 1.06 * static_cast<Real>(mesh.n_global));
+    for (const Real x : {0.3, 0.5, 0.7}) EXPECT_LT(share_of_ball(mesh, x), 1.3);
+  }
+  block.type = CellType::tet;  // no rows: only where the load is told to be
+  const TextFile file(BlockText(block).text());
+  options.file = file.path();
+  EXPECT_LT(share_of_ball(read_mesh(options), 0.3), 1.15);
+}
+
 TEST(Division, FewerCellsThanRanks) {
   Block block;
   block.n = {2, 1, 1};

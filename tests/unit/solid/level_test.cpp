@@ -68,7 +68,7 @@ TEST(Level, ForgetsWhereItsBandWas) {
     test::BoxFile box{.n = {24, 8, 0}, .length = {2, 1, 1}, .simplex = simplex};
     box.moved = [](const Vec3& x) {
       const Real inside = x.x * (2 - x.x) * x.y * (1 - x.y);
-      return x + (0.3 * inside * std::sin(20 * x.x + 30 * x.y)) * Vec3{1, -1, 0};
+      return x + (0.1 * inside * std::sin(20 * x.x + 30 * x.y)) * Vec3{1, -1, 0};
     };
     const Mesh mesh = test::read_box(box);
     const CellField<Vec3> fresh = after_a_way(mesh, {1.4}),

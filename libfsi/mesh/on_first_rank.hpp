@@ -1,0 +1,32 @@
+#pragma once
+// Work that one rank does and whose failure is everybody's.
+
+#include <mpi.h>
+
+#include <string>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+
+/// Collective. Runs `work` on rank 0; where it throws, every rank throws the same Error.
+template <class Work>
+void on_first_rank(const Work& work) {
+  std::string fault;
+  auto kind = static_cast<int>(Kind::internal);
+  if (rank() == 0) {
+    try {
+      work();
+    } catch (const Error& error) {
+      kind = static_cast<int>(error.kind()), fault = error.what();
+    } catch (const std::exception& error) {
+      fault = std::string("reading the mesh: ") + error.what();
+    }
+  }
+  fault = broadcast(fault);
+  MPI_Bcast(&kind, 1, MPI_INT, 0, comm());
+  if (!fault.empty()) throw Error(static_cast<Kind>(kind), fault);
+}
+
+}  // namespace fsi
