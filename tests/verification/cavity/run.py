@@ -63,7 +63,8 @@ def main():
                        check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         with open(os.path.join(out, "flow.csv"), encoding="utf-8") as file:
             energy = [float(row["kinetic_energy"]) for row in csv.DictReader(file)]
-        change = abs(energy[-1] / energy[-2] - 1)
+        # The last steps are shortened to hit the end, which the energy feels by 1e-5.
+        change = abs(energy[-2] / energy[-3] - 1)
         if change > 1e-5:
             failures.append(f"N = {n} is not steady: {change:.1e}")
         s, u, v = profiles(out, n)
