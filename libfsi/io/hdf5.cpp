@@ -54,9 +54,13 @@ hid_t text_type(std::size_t length) {
   return type;
 }
 
+/// At the end of the program HDF5 would tidy up what a failed write left open, and falls over it.
+void leave_the_end_alone() { H5dont_atexit(); }
+
 }  // namespace
 
 Hdf5Image::Hdf5Image() {
+  leave_the_end_alone();
   const Quiet quiet;
   memory_ = ::memfd_create("fsi", MFD_CLOEXEC);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -70,7 +74,7 @@ Hdf5Image::Hdf5Image() {
 
 Hdf5Image::~Hdf5Image() {
   const Quiet quiet;
-  if (file_ >= 0) H5Fclose(file_);
+  if (file_ >= 0 && ok_) H5Fclose(file_);  // what a failed write left is not to be written again
   if (memory_ >= 0) ::close(memory_);
 }
 
@@ -175,7 +179,8 @@ void Hdf5Image::link(const std::string& path, const std::string& file) {
 
 bool Hdf5Image::close() {
   const Quiet quiet;
-  if (file_ >= 0) ok_ = H5Fclose(file_) >= 0 && ok_;
+  // A file that cannot be flushed cannot be closed either.
+  ok_ = ok_ && file_ >= 0 && H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0 && H5Fclose(file_) >= 0;
   file_ = -1;
   const off_t end = ::lseek(memory_, 0, SEEK_END);
   ok_ = ok_ && end > 0;
@@ -189,6 +194,7 @@ bool Hdf5Image::read(std::uint64_t offset, std::span<std::byte> bytes) const {
 }
 
 Hdf5File::Hdf5File(const std::string& path) {
+  leave_the_end_alone();
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Not every shared file system has locks, and nobody changes a file once it has its name.

@@ -55,8 +55,7 @@ CellField<Vec3> after_a_way(const Mesh& mesh, const std::vector<Real>& way) {
     force.fill({});
     level.clear();
     for (const Index f : band.faces())
-      if (f < mesh.n_internal)
-        level.add(f, 1 + mesh.Cf[f].y, stencil.cells);
+      if (f < mesh.n_internal) level.add(f, 1 + mesh.Cf[f].y, stencil.cells);
     level.apply(force, balance, stencil, band);
   }
   return force;
