@@ -30,10 +30,14 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
-  constexpr Real courant = 0.02;
+  constexpr Real courant = 0.02, whole = 1e-7;  // balance of a face where the stress acts fully
   const auto time = [&](Index f, const Vec3& u_f) {
-    if (terms.balance[f] == 0) return terms.dt;
-    return std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));
+    const Real size = std::abs(terms.balance[f]);
+    if (size == 0) return terms.dt;
+    const Real acts = terms.stress > 0 ? std::min(Real{1}, size / (whole * terms.stress)) : 1;
+    const Real shorter =
+        std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));
+    return terms.dt - acts * (terms.dt - shorter);
   };
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f], i = weights.place[f];

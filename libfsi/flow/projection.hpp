@@ -26,6 +26,7 @@ struct FluxTerms {
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
   Real rho = 1, dt = 0;
+  Real stress = 0;    ///< scale of the elastic stress; 0: there is none
   Real strained = 0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
 };
 
@@ -42,9 +43,9 @@ struct FluxTerms {
 /// The last part of d_f where the flux strains the solid: an elastic normal stress that alternates
 /// from cell to cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a
 /// step, no more than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| /
-/// |u_f|: the jump at the surface of a solid would else leak through it with a flux in proportion
-/// to dt. Boundary: prescribed velocity, or the same with p_b at openings. On return every face of
-/// phi is set. u: owned and halo.
+/// |u_f|, gradually from none of c_f to 1e-7 of the stress: the jump at the surface of a solid
+/// would else leak through it with a flux in proportion to dt. Boundary: prescribed velocity, or
+/// the same with p_b at openings. On return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);

@@ -62,6 +62,13 @@ void Level::apply(CellField<Vec3>& force, FaceField<Real>& balance, PressureSten
     const Index c = stencil.closed_cells[i];
     if (band.listed()[c] != 0) whole_[c] = dot(stencil.closed[i], whole_[c]);
   }
+  // Cells beyond the band have a part of their faces only, more of them beside other ranks: the
+  // force leaves them out, and so does the balance.
+  for (const Index f : reached_) {
+    const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
+    for (const Index c : {P, N})
+      if (band.listed()[c] == 0) whole_[c] = {};
+  }
   mesh_.halo.update(whole_);
   for (const Index c : band.cells()) force[c] += whole_[c];
   for (const Index f : band.faces()) {

@@ -106,10 +106,4 @@ void NeoHookean::apply(CellField<Vec3>& force, FaceField<Real>& balance, const S
   mesh_.halo.update(force);
 }
 
-void clear_negligible(FaceField<Real>& balance, Real G, const Band& band) {
-  constexpr Real negligible = 1e-9;
-  for (const Index f : band.faces())
-    if (std::abs(balance[f]) < negligible * G) balance[f] = 0;
-}
-
 }  // namespace fsi::solid

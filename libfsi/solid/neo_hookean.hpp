@@ -54,8 +54,4 @@ class NeoHookean {
   std::vector<Index> last_cells_;  // where grad was written
 };
 
-/// A balance below 1e-9 G on the band's faces is none: traces of alpha and rounding leave it, and
-/// the face flux is limited where there is one.
-void clear_negligible(FaceField<Real>& balance, Real G, const Band& band);
-
 }  // namespace fsi::solid

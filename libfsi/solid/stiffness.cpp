@@ -31,11 +31,20 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
   return time;
 }
 
-Stiffness::Stiffness(const Mesh& mesh) : mesh_(mesh), simplex_(has_simplices(mesh)) {}
+Stiffness::Stiffness(const Mesh& mesh, const FaceWeights& weights)
+    : mesh_(mesh), simplex_(has_simplices(mesh)) {
+  CellField<Real> K(mesh);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    for (const Index f : mesh.cell_faces[c])
+      K[c] += weights.g[f] * norm2(mesh.d[f]) / (2 * mesh.V[c]);
+  mesh.halo.update(K);
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    inertia_.push_back(std::min(0.125, 0.5 / std::max(K[mesh.owner[f]], K[mesh.neighbour[f]])));
+}
 
 void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stiffening& solid,
                       const FaceWeights& weights, const Band& band) {
-  constexpr Real explicit_part = 1.5;  // of kappa + rho |d|^2 / (8 dt): stable so
+  constexpr Real explicit_part = 1.5;  // of kappa + m: stable so
   const CellField<Real>& lambda = solid.lambda;
   for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();
@@ -50,7 +59,7 @@ void Stiffness::apply(FaceField<Real>& kappa, CellField<Vec3>& force, const Stif
     if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
-    const Real inertia = solid.rho * d * d / (8 * solid.dt);
+    const Real inertia = inertia_[f] * solid.rho * d * d / solid.dt;
     // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
     // at the surface a part alpha_f of the way is the solid's.
     const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;

@@ -49,15 +49,18 @@ struct Stiffening {
 /// (L_P + L_N) / 2, exact for a quadratic velocity, at the surface, where u has a kink,
 /// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
 /// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,
-/// and so at most 1.5 (kappa + rho |d|^2 / (8 dt)). Triangles and tetrahedra, whose gradient has
-/// more such modes, need twice the root and all of it. With L from the cell's own side (sided)
-/// kappa grows by what makes all of e stable, i = e / 1.5 - kappa - rho |d|^2 / (8 dt) where that
-/// is positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n. Either costs an
+/// and so at most 1.5 (kappa + m), m = rho |d|^2 / dt min(1 / 8, 1 / (2 K)) with the larger K =
+/// sum_f g |d|^2 / (2 V) of the two cells: a velocity that differs from all neighbours' then
+/// changes by no more than 1.5 of itself in a step, whatever the shape of its cell (K = dim on
+/// squares and regular simplices, 10 and more on slivers). Triangles and tetrahedra, whose gradient
+/// has more such modes, need twice the root and all of it. With L from the cell's own side (sided)
+/// kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m where that is
+/// positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n. Either costs an
 /// error of first order in dt. Without `kink` the mean is that of the face.
 class Stiffness {
  public:
   /// Collective.
-  explicit Stiffness(const Mesh& mesh);
+  Stiffness(const Mesh& mesh, const FaceWeights& weights);
 
   /// kappa / (dt G alpha lambda_B).
   static constexpr Real share = 0.4;
@@ -70,7 +73,8 @@ class Stiffness {
 
  private:
   const Mesh& mesh_;
-  bool simplex_ = false;  // whether the mesh has triangles or tetrahedra
+  bool simplex_ = false;       // whether the mesh has triangles or tetrahedra
+  std::vector<Real> inertia_;  // [n_internal] m dt / (rho |d|^2)
   std::vector<Index> last_faces_;
 };
 

@@ -34,7 +34,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       band(mesh),
       kinematics(make(mesh, kind)),
       law(mesh, weights, G),
-      stiffness(mesh),
+      stiffness(mesh, weights),
       grad(mesh),
       filled(vof::fill(alpha, mesh, shape, mirrors)),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {

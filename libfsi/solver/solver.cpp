@@ -302,7 +302,6 @@ void Solver::set_elastic_force() {
          two_viscosities_->normal, two_viscosities_->height, mu_},
         weights_, projection_.stencil(), body_->band);
   }
-  solid::clear_negligible(balance_, physics_.G, body_->band);
   if (body_force_)
     body_force_->apply(force_, balance_, body_->alpha_f, projection_.stencil(), body_->band);
 }
@@ -352,6 +351,7 @@ void Solver::predict_flux(Real dt) {
       .elastic = kappa_,
       .rho = physics_.rho,
       .dt = dt,
+      .stress = body_ ? physics_.G : 0,
       .strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.boundary().open, terms, weights_,
                      mesh_);

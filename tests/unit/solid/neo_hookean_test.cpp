@@ -298,7 +298,7 @@ struct Stiff {
   CellField<Vec3> u;
   CellField<Tensor> L;
   FaceField<Real> kappa;
-  solid::Stiffness stiffness{s.mesh};
+  solid::Stiffness stiffness{s.mesh, s.weights};
 };
 
 // kappa = 0.4 dt G lambda + |d| (rho G lambda)^(1/2) on the faces of the solid, of half of it at
