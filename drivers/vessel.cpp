@@ -8,7 +8,7 @@ namespace fsi {
 Ending body() {
   // 1 parameters
   Options options("fsi-vessel", "flow through any vessel, conditions by the patches' names");
-  Case which = read_case(options, "vessel", {1, 0, 0});
+  Case which = read_case(options, "vessel");
   const Vec3 force =
       options.vec3("flow_body_force", {}, {.help = "on fluid and solid", .unit = "force / volume"});
   if (options.help()) return list_vessel_options(options, which.solid), Ending::complete;

@@ -1,5 +1,7 @@
 #include "libfsi/core/arguments.hpp"
 
+#include <filesystem>
+
 #include <cctype>
 #include <set>
 
@@ -28,6 +30,9 @@ Arguments read_arguments(int argc, char** argv) {
     } else if (i == 1 && is_yaml(word)) {
       result.file = word;
       result.words.insert(result.words.end(), {"-options_file_yaml", word});
+      // PETSc forgets the name; files that the case names may lie beside it.
+      const std::string folder = std::filesystem::path(word).parent_path().string();
+      result.words.insert(result.words.end(), {"-case_folder", folder.empty() ? "." : folder});
     } else {
       result.words.push_back(word);
     }

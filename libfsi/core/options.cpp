@@ -200,6 +200,7 @@ Options::Options(std::string program, std::string purpose) : program_(std::move(
   PetscBool help = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, "-help", &help));
   help_ = help == PETSC_TRUE;
+  case_folder_ = raw("case_folder").value_or("");
   if (help_)
     FSI_PETSC(
         PetscPrintf(comm(),
@@ -258,6 +259,21 @@ std::string Options::text(const std::string& name, const std::string& fallback,
   require(!text || !text->empty(), "option -" + name + " needs a value: " + help);
   record({name, text.value_or(fallback), fallback, help, ""});
   return text.value_or(fallback);
+}
+
+std::string Options::text_or_file(const std::string& name, const std::string& fallback,
+                                  const std::string& help) {
+  const auto given = raw(name);
+  require(!given || !given->empty(), "option -" + name + " needs a value: " + help);
+  std::string value = given.value_or(fallback);
+  const std::filesystem::path folder(case_folder_);
+  for (const auto& place : {std::filesystem::path(value), folder / value})
+    if (std::filesystem::is_regular_file(place)) {
+      value = std::filesystem::absolute(place).lexically_normal().string();
+      break;
+    }
+  record({name, value, fallback, help, ""});
+  return value;
 }
 
 std::string Options::choice(const std::string& name, const std::string& fallback,
@@ -340,7 +356,7 @@ std::string Options::yaml() const {
   for (const auto& [name, value] : all_given()) {
     const auto same = [&, &key = name](const Entry& entry) { return entry.name == key; };
     if (std::any_of(entries_.begin(), entries_.end(), same) || name.starts_with("options_file") ||
-        name == "help")
+        name == "help" || name == "case_folder")
       continue;
     if (!headed) text += "# options of PETSc\n";
     headed = true;

@@ -33,6 +33,10 @@ class Options {
   int integer(const std::string& name, int fallback, const Spec& spec);
   bool flag(const std::string& name, bool fallback, const std::string& help);
   std::string text(const std::string& name, const std::string& fallback, const std::string& help);
+  /// A file's name, or any other word: where no such file is in the working directory but one
+  /// beside the case file, that one. Recorded so that run.yaml finds it too.
+  std::string text_or_file(const std::string& name, const std::string& fallback,
+                           const std::string& help);
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& valid, const std::string& help);
   Vec3 vec3(const std::string& name, const Vec3& fallback, const Spec& spec);
@@ -56,7 +60,7 @@ class Options {
     std::string name, value, fallback, help, range;
   };
   void record(Entry entry);
-  std::string program_;
+  std::string program_, case_folder_;
   std::vector<Entry> entries_;
   bool help_ = false;
 };

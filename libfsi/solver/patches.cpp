@@ -43,8 +43,8 @@ class PatchOptions {
   }
   /// A number, or a csv file of numbers over time.
   OfTime of_time(const std::string& key, const std::string& fallback, const std::string& help) {
-    const std::string text =
-        options_.text(name_ + key, fallback, help + "; a number or a csv file of time and value");
+    const std::string text = options_.text_or_file(
+        name_ + key, fallback, help + "; a number or a csv file of time and value");
     const Real period =
         real("period", 0, "after which the values of a csv file come again; 0: never", "time");
     char* end = nullptr;
@@ -72,7 +72,7 @@ class PatchOptions {
   Condition velocity() {
     const Vec3 u = options_.vec3(name_ + "velocity", {},
                                  {.help = "velocity: the same everywhere", .unit = "velocity"});
-    const std::string file = options_.text(
+    const std::string file = options_.text_or_file(
         name_ + "velocity_file", "", "velocity: csv file of x,y,z,ux,uy,uz, taken at the nearest");
     const OfTime factor = of_time("velocity_factor", "1", "velocity: what it is multiplied by");
     if (file.empty() || options_.help())
@@ -182,8 +182,7 @@ void place_solid(SolidSetup& solid, Options& options, const Mesh& mesh) {
       "solid_arc_length", 1, {.help = "along -solid_path, from its first patch", .unit = "length"});
   if (path.empty() || options.help() || !solid.shape) return;
   require(path.size() == 2, "option -solid_path needs two patches: from,to");
-  require(!options.given("solid_center") && !options.given("solid_axis"),
-          "options -solid_path and -solid_center or -solid_axis exclude each other");
+  require(!options.given("solid_axis"), "options -solid_path and -solid_axis exclude each other");
   const flow::CentreLine line(mesh, path[0], path[1]);
   const std::string range = "option -solid_arc_length: the centre line from " + path[0] + " to " +
                             path[1] + " is " + std::to_string(line.length()) + " long";

@@ -27,7 +27,7 @@ OF_THE_RUN = {"wall_per_step", "pressure_iterations", "divergence_max", "oversho
 AXIS = {"nx", "ny", "nz", "angle", "taylor_angle"}
 # Where a section passes a corner of a cell it gains a piece: 1e-8 in the surface, 1e-3 in this angle.
 SECTIONS = {"bending_meridian"}
-ROUND = {"cavity_disc", "shear", "stenosis_sphere", "vortex"}
+ROUND = {"cavity_disc", "shear", "stenosis_sphere", "vortex", "bend", "bifurcation"}
 failures = []
 
 

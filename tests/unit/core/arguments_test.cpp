@@ -16,8 +16,9 @@ TEST(Arguments, AnOptionsFileComesFirst) {
   const Arguments a = read({"case.yaml", "-help", "-a", "1"});
   EXPECT_EQ(a.file, "case.yaml");
   EXPECT_TRUE(a.help);
-  EXPECT_EQ(a.words,
-            (std::vector<std::string>{"program", "-options_file_yaml", "case.yaml", "-a", "1"}));
+  EXPECT_EQ(a.words, (std::vector<std::string>{"program", "-options_file_yaml", "case.yaml",
+                                               "-case_folder", ".", "-a", "1"}));
+  EXPECT_EQ(read({"cases/own.yml"}).words.back(), "cases");
   EXPECT_EQ(read({"-a", "case.yaml"}).file, "");
   EXPECT_FALSE(a.version);
   EXPECT_TRUE(read({"-version"}).version);
