@@ -1,30 +1,14 @@
 #include "libfsi/flow/centre_line.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/flow/projection.hpp"
+#include "libfsi/mesh/quality.hpp"
 
 namespace fsi::flow {
-namespace {
-
-Vec3 centre_of(const Patch& patch, const Mesh& mesh) {
-  std::array<Sum, 4> sums;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    const Real area = norm(mesh.Sf[f]);
-    for (int i = 0; i < 3; ++i) sums[i].add(area * mesh.Cf[f][i]);
-    sums[3].add(area);
-  }
-  std::array<Real, 4> total{};
-  Sum::totals(total, sums);
-  return Vec3{total[0], total[1], total[2]} / total[3];
-}
-
-}  // namespace
-
 CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::string& to) {
   Conditions conditions;
   for (const Patch& patch : mesh.patches) conditions[patch.name] = Slip{};
@@ -52,11 +36,11 @@ CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::str
   }
   std::vector<Real> total(sums.size());
   Sum::totals(total, sums);
-  points_.push_back(centre_of(first, mesh));
+  points_.push_back(centre(mesh, from));
   for (int k = 0; k < slices; ++k)
     if (const Real weight = total[4 * k + 3]; weight > 0)
       points_.push_back(Vec3{total[4 * k], total[4 * k + 1], total[4 * k + 2]} / weight);
-  points_.push_back(centre_of(mesh.patch(to), mesh));
+  points_.push_back(centre(mesh, to));
   arc_.push_back(0);
   for (std::size_t i = 1; i < points_.size(); ++i)
     arc_.push_back(arc_.back() + norm(points_[i] - points_[i - 1]));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/hdf5_handle.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/exchange.hpp"
 #include "libfsi/mesh/sentences.hpp"
@@ -18,38 +19,8 @@ namespace {
 
 constexpr std::int64_t format = 1;
 
-/// An open HDF5 thing, closed at the end of its scope.
-class Open {
- public:
-  Open(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Open() {
-    if (id_ >= 0) close_(id_);
-  }
-  Open(const Open&) = delete;
-  Open& operator=(const Open&) = delete;
-  operator hid_t() const { return id_; }
-  bool ok() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// HDF5 prints its stack of errors by itself; within a scope of this it does not.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
+using Open = Hdf5Handle;
+using Quiet = Hdf5Quiet;
 
 template <class T>
 hid_t type_of() {

@@ -15,10 +15,10 @@ namespace fsi {
 ///   k       Sf - g d: what is left for the explicit non-orthogonal correction
 ///
 /// A face is irregular where the mean of its two cells and the difference along d do not do: Cf is
-/// not the midpoint of PN or k is not zero, in parts of 1e-8, or the face is one of a triangle or
-/// tetrahedron at the boundary. What it needs besides comes from the gradient there
-/// (VertexMean), in proportion to these offsets: the limit decides what work is done, a change
-/// of the mesh across it changes the results in the eighth digit.
+/// not the midpoint of PN or k is not zero, in parts of 1e-8, or the face lies at the boundary and
+/// its cell is neither a quadrilateral nor a hexahedron. What it needs besides comes from the
+/// gradient there (VertexMean), in proportion to these offsets: the limit decides what work is
+/// done, a change of the mesh across it changes the results in the eighth digit.
 struct FaceWeights {
   /// Collective.
   explicit FaceWeights(const Mesh& mesh);

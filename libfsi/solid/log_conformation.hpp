@@ -44,8 +44,8 @@ class LogConformation {
   }
   /// Owned cells on which `transport` reads L.
   std::span<const Index> strained() const { return known_.cells(); }
-  /// Not zero in these, also in those of other ranks.
-  const CellField<Real>& listed() const { return known_.listed(); }
+  /// The band of these.
+  const Band& known() const { return known_; }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
   /// zero far from the solid. grad: scratch. The strain returned is that of the inner cells: what

@@ -100,9 +100,11 @@ bool Body::count_out() {
   if (volume_out <= 1e-12 * filled.volume || gone != 0) return false;
   Sum left, taken;
   for (Index c = 0; c < mesh.n_owned; ++c) {
+    specks[c] = 0;
+    if (alpha[c] == 0) continue;
     Real most = alpha[c];
     for (const Index n : mesh.cell_neighbours[c]) most = std::max(most, alpha[n]);
-    const bool out_of_it = alpha[c] > 0 && most < speck;
+    const bool out_of_it = most < speck;
     specks[c] = out_of_it ? 1 : 0;
     (out_of_it ? taken : left).add(mesh.V[c] * alpha[c]);
   }

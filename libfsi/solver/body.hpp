@@ -64,9 +64,9 @@ struct Body {
   bool strained_by_flux() const {
     return !sided && std::holds_alternative<solid::LogConformation>(kinematics);
   }
-  /// Not zero in the cells that `sided` works on, also in those of other ranks; with `sided` only.
-  const CellField<Real>& strained_cells() const {
-    return std::get<solid::LogConformation>(kinematics).listed();
+  /// The cells that `sided` works on; with `sided` only.
+  const Band& strained_cells() const {
+    return std::get<solid::LogConformation>(kinematics).known();
   }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real ahead() const {

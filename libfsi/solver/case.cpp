@@ -203,6 +203,9 @@ void describe(const Case& which, const Mesh& mesh, Real length, Real velocity) {
   const Physics& p = which.physics;
   if (velocity == 0) {
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");
+    if (which.solid.shape)
+      std::printf("%s: density ratio 1, viscosity ratio %.4g, thickness %g\n",
+                  which.solid.name.c_str(), p.mu_s / p.mu_f, which.solid.thickness);
     std::fflush(stdout);
     return;
   }

@@ -64,7 +64,7 @@ Solver::Term Solver::holder(Real dt) const {
 std::string Solver::diagnosis(Term term, Real dt) {
   if (term == Term::pressure) {
     flow::divergence(divergence_, state_.phi, mesh_);
-    return at_worst([&](Index c) { return dt * std::abs(divergence_[c]) / mesh_.V[c]; },
+    return at_worst([&](Index c) { return dt * std::abs(divergence_[c]); },
                     "the largest change of volume that the pressure leaves, in parts of the cell,",
                     "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
   }

@@ -159,14 +159,16 @@ void Solver::set_gradient(BoundaryField<Vec3>& u_b, Real t) {
 void Solver::take_sided_gradient() {
   sided_L_f_.clear();
   if (!body_ || !body_->sided) return;
-  const CellField<Real>& listed = body_->strained_cells();
-  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
-    const Index f = weights_.irregular[i], P = mesh_.owner[f];
+  const Band& strained = body_->strained_cells();
+  const CellField<Real>& listed = strained.listed();
+  for (const Index f : strained.faces()) {
+    const Index i = weights_.place[f], P = mesh_.owner[f];
+    if (i < 0) continue;
     const Index N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
     if (listed[P] == 0 || listed[N] == 0) continue;
     const Real lambda = f < mesh_.n_internal ? weights_.lambda[f] : 0;
     L_f_[i] = (1 - lambda) * L_[P] + lambda * L_[N];
-    sided_L_f_.emplace_back(static_cast<Index>(i), L_f_[i]);
+    sided_L_f_.emplace_back(i, L_f_[i]);
   }
 }
 

@@ -3,7 +3,8 @@
 
     run.py SOURCE DRIVERS FOLDER RANKS [MPIEXEC...]
 
-The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, coarse.
+The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, and a sphere
+in a vessel between windkessels, coarse.
 On the same ranks the tables (but for the columns of wall time) and the last checkpoint are equal byte
 for byte.
 """
@@ -25,6 +26,8 @@ CASES = {
     "map": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
             ["-time_end", "4", "-checkpoint_interval", "0.5", "-output_interval", "2",
              "-solid_kinematics", "reference_map"]),
+    "vessel": ("fsi-vessel", "bifurcation", ["-3", "bifurcation", "n=6"],
+               ["-time_end", "0.8", "-checkpoint_interval", "0.05", "-output_interval", "0.2"]),
 }
 KILLS = 5
 
