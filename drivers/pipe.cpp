@@ -4,35 +4,35 @@
 
 namespace fsi {
 
-Ending body() {
+RunStatus body() {
   // 1 parameters
   Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
-  Case which = read_case(options, "pipe", {1, 0, 0});
+  Case setup = read_case(options, "pipe", {1, 0, 0});
   const Real mean = options.real("flow_mean_velocity", 0.5,
                                  {.help = "along x, held exactly", .unit = "velocity"});
-  if (options.help()) return Ending::complete;
+  if (options.help()) return RunStatus::complete;
   options.check_unknown();
 
   // 2 mesh and boundary conditions
-  const Mesh mesh = read_mesh(which.mesh);
-  which.flow.conditions = {{"wall", Wall{}}};
+  const Mesh mesh = read_mesh(setup.mesh);
+  setup.flow.conditions = {{"wall", Wall{}}};
   for (const Patch& patch : mesh.patches)
-    if (patch.name == "symmetry") which.flow.conditions["symmetry"] = Slip{};
-  which.flow.mean_velocity = mean;
-  describe(which, mesh, 1, 2 * mean);
+    if (patch.name == "symmetry") setup.flow.conditions["symmetry"] = Slip{};
+  setup.flow.mean_velocity = mean;
+  describe(setup, mesh, 1, 2 * mean);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, which.flow);
+  Solver solver(mesh, setup.physics, setup.flow);
   solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
-  if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
+  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
 
   // 4 what to write
-  Output output(which, options, solver, "pipe");
+  Output output(setup, options, solver, "pipe");
 
   // 5 time
-  Clock clock(which.time.end, solver.state().t);
+  Clock clock(setup.time.end, solver.state().t);
   while (clock.running() && output.go_on()) {
-    const Limit limit = stable_dt(solver, which.time);
+    const Limit limit = stable_dt(solver, setup.time);
     const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);

@@ -4,34 +4,34 @@
 
 namespace fsi {
 
-Ending body() {
+RunStatus body() {
   // 1 parameters
   Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
-  Case which = read_case(options, "stenosis", {1, 0, 0});
+  Case setup = read_case(options, "stenosis", {1, 0, 0});
   const Real p_in = options.real("inlet_pressure", 5.5,
                                  {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
-  if (options.help()) return Ending::complete;
+  if (options.help()) return RunStatus::complete;
   options.check_unknown();
 
   // 2 mesh and boundary conditions
-  const Mesh mesh = read_mesh(which.mesh);
-  which.flow.conditions = {{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
+  const Mesh mesh = read_mesh(setup.mesh);
+  setup.flow.conditions = {{"wall", Wall{}}, {"inlet", Opening{p_in}}, {"outlet", Opening{0}}};
   for (const Patch& patch : mesh.patches)
-    if (patch.name == "symmetry") which.flow.conditions["symmetry"] = Slip{};
-  describe(which, mesh, 1, 1);
+    if (patch.name == "symmetry") setup.flow.conditions["symmetry"] = Slip{};
+  describe(setup, mesh, 1, 1);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, which.flow);
+  Solver solver(mesh, setup.physics, setup.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
+  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
 
   // 4 what to write
-  Output output(which, options, solver, "stenosis");
+  Output output(setup, options, solver, "stenosis");
 
   // 5 time
-  Clock clock(which.time.end, solver.state().t);
+  Clock clock(setup.time.end, solver.state().t);
   while (clock.running() && output.go_on()) {
-    const Limit limit = stable_dt(solver, which.time);
+    const Limit limit = stable_dt(solver, setup.time);
     const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);

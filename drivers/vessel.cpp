@@ -5,34 +5,34 @@
 
 namespace fsi {
 
-Ending body() {
+RunStatus body() {
   // 1 parameters
   Options options("fsi-vessel", "flow through any vessel, conditions by the patches' names");
-  Case which = read_case(options, "vessel");
+  Case setup = read_case(options, "vessel");
   const Vec3 force =
       options.vec3("flow_body_force", {}, {.help = "on fluid and solid", .unit = "force / volume"});
-  if (options.help()) return list_vessel_options(options, which.solid), Ending::complete;
+  if (options.help()) return list_vessel_options(options, setup.solid), RunStatus::complete;
 
   // 2 mesh and boundary conditions
-  const Mesh mesh = read_mesh(which.mesh);
-  which.flow.conditions = read_patches(options, mesh);
-  if (norm(force) > 0) which.flow.body_force = [=](const Vec3&, Real) { return force; };
-  place_solid(which.solid, options, mesh);
+  const Mesh mesh = read_mesh(setup.mesh);
+  setup.flow.conditions = read_patches(options, mesh);
+  if (norm(force) > 0) setup.flow.body_force = [=](const Vec3&, Real) { return force; };
+  place_solid(setup.solid, options, mesh);
   options.check_unknown();
-  describe(which, mesh, 1, 0);
+  describe(setup, mesh, 1, 0);
 
   // 3 solver and initial state
-  Solver solver(mesh, which.physics, which.flow);
+  Solver solver(mesh, setup.physics, setup.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (which.solid.shape) solver.put_solid(*which.solid.shape, which.solid.kinematics);
+  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
 
   // 4 what to write
-  Output output(which, options, solver, "vessel");
+  Output output(setup, options, solver, "vessel");
 
   // 5 time
-  Clock clock(which.time.end, solver.state().t);
+  Clock clock(setup.time.end, solver.state().t);
   while (clock.running() && output.go_on()) {
-    const Limit limit = stable_dt(solver, which.time);
+    const Limit limit = stable_dt(solver, setup.time);
     const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);

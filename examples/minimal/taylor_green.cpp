@@ -10,13 +10,13 @@
 using fsi::Real;
 using fsi::Vec3;
 
-fsi::Ending decay() {
+fsi::RunStatus decay() {
   // 1. parameters
   fsi::Options options("taylor-green", "vortices that decay in a periodic square");
   const Real mu = options.real("fluid_viscosity", 0.01, {.help = "viscosity", .positive = true});
   const Real end = options.real("time_end", 0.5, {.help = "time of the end", .positive = true});
   const std::string file = options.text("mesh", "", "a square of side 1, made by box.geo");
-  if (options.help()) return fsi::Ending::complete;
+  if (options.help()) return fsi::RunStatus::complete;
   options.check_unknown();
 
   // 2. mesh: no boundary is left, so there are no conditions
@@ -51,7 +51,7 @@ fsi::Ending decay() {
                 static_cast<long long>(mesh.n_global), static_cast<long long>(solver.state().step),
                 error);
   fsi::require(error < 0.02, "the error is larger than this mesh should give: refine it");
-  return fsi::Ending::complete;
+  return fsi::RunStatus::complete;
 }
 
 int main(int argc, char** argv) { return fsi::run(argc, argv, decay); }

@@ -8,17 +8,17 @@ namespace fsi {
 // A time counts as a multiple when it is within this part of an interval: sums of steps round.
 constexpr Real tolerance = 1e-9;
 
-std::int64_t Every::index(Real t) const {
+std::int64_t Schedule::index(Real t) const {
   return static_cast<std::int64_t>(std::floor(t / interval_ + tolerance));
 }
 
-bool Every::due(Real t) {
+bool Schedule::due(Real t) {
   if (interval_ <= 0 || index(t) <= done_) return false;
   done_ = index(t);
   return true;
 }
 
-std::vector<Real> Every::reached(Real t) {
+std::vector<Real> Schedule::reached(Real t) {
   std::vector<Real> times;
   if (interval_ <= 0) return times;
   for (const std::int64_t end = index(t); done_ < end;)
@@ -26,16 +26,16 @@ std::vector<Real> Every::reached(Real t) {
   return times;
 }
 
-Real Every::next(Real t) const {
+Real Schedule::next(Real t) const {
   return interval_ <= 0 ? std::numeric_limits<Real>::max()
                         : static_cast<Real>(index(t) + 1) * interval_;
 }
 
-bool Every::at(Real t) const {
+bool Schedule::at(Real t) const {
   return interval_ > 0 && std::abs(t / interval_ - std::round(t / interval_)) <= tolerance;
 }
 
-void Every::resume(Real t) {
+void Schedule::resume(Real t) {
   if (interval_ > 0) done_ = index(t);
 }
 

@@ -21,9 +21,9 @@ struct Limit {
 inline Limit tighter(const Limit& a, const Limit& b) { return b.dt < a.dt ? b : a; }
 
 /// An event at every multiple of an interval of simulated time; interval <= 0: never.
-class Every {
+class Schedule {
  public:
-  explicit Every(Real interval) : interval_(interval) {}
+  explicit Schedule(Real interval) : interval_(interval) {}
   /// Whether a multiple was reached since the last time this was true. At t = 0: true.
   bool due(Real t);
   /// The multiples reached since the last time this or due() was asked.

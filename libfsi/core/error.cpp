@@ -20,8 +20,8 @@ void petsc_failed(int code, const char* call, const char* file, int line) {
   const bool of_user = std::string_view(call).find("FromOptions") != std::string_view::npos ||
                        code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR ||
                        code == PETSC_ERR_USER_INPUT || code == PETSC_ERR_SUP;
-  if (of_user) throw Error(Kind::input, "an option of PETSc is not valid: " + text);
-  throw Error(Kind::internal,
+  if (of_user) throw Error(ErrorKind::input, "an option of PETSc is not valid: " + text);
+  throw Error(ErrorKind::internal,
               std::string(file) + ":" + std::to_string(line) + ": " + call + " failed: " + text);
 }
 

@@ -10,7 +10,7 @@
 namespace fsi {
 
 /// What went wrong, as the exit code a sweep script sees.
-enum class Kind : int {
+enum class ErrorKind : int {
   input = 2,      ///< the user's options, mesh or files: names the culprit and the valid choices
   numerics = 3,   ///< a solve failed or a field is not finite, after all retries
   io = 4,         ///< a file could not be read or written
@@ -20,16 +20,16 @@ enum class Kind : int {
 /// The one exception type: a sentence for the user and its kind.
 class Error : public std::runtime_error {
  public:
-  Error(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
-  Kind kind() const noexcept { return kind_; }
+  Error(ErrorKind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  ErrorKind kind() const noexcept { return kind_; }
 
  private:
-  Kind kind_;
+  ErrorKind kind_;
 };
 
 /// User input: throws Error{input} with `sentence` unless ok.
 inline void require(bool ok, const std::string& sentence) {
-  if (!ok) throw Error(Kind::input, sentence);
+  if (!ok) throw Error(ErrorKind::input, sentence);
 }
 
 /// PETSc's own words for its latest failure, which returned `code`.
@@ -52,11 +52,11 @@ std::string petsc_text(int code);
 #define FSI_ASSERT(condition) static_cast<void>(0)
 #else
 /// Programming error: checked in debug builds only.
-#define FSI_ASSERT(condition)                                                           \
-  do {                                                                                  \
-    if (!(condition))                                                                   \
-      throw ::fsi::Error(::fsi::Kind::internal, std::string(__FILE__) + ":" +           \
-                                                    std::to_string(__LINE__) +          \
-                                                    ": assertion failed: " #condition); \
+#define FSI_ASSERT(condition)                                                                \
+  do {                                                                                       \
+    if (!(condition))                                                                        \
+      throw ::fsi::Error(::fsi::ErrorKind::internal, std::string(__FILE__) + ":" +           \
+                                                         std::to_string(__LINE__) +          \
+                                                         ": assertion failed: " #condition); \
   } while (false)
 #endif

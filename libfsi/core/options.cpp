@@ -280,8 +280,9 @@ std::string Options::choice(const std::string& name, const std::string& fallback
                             const std::vector<std::string>& valid, const std::string& help) {
   const std::string value = raw(name).value_or(fallback);
   if (std::find(valid.begin(), valid.end(), value) == valid.end())
-    throw Error(Kind::input, "option -" + name + ": \"" + value + "\" is not valid; nearest is " +
-                                 nearest(value, valid) + "; choose from: " + joined(valid));
+    throw Error(ErrorKind::input, "option -" + name + ": \"" + value +
+                                      "\" is not valid; nearest is " + nearest(value, valid) +
+                                      "; choose from: " + joined(valid));
   record({name, value, fallback, help, "one of " + joined(valid)});
   return value;
 }

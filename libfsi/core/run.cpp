@@ -41,7 +41,7 @@ bool all_ranks_failed(MPI_Comm rim) {
 }
 
 /// Says it once where all ranks failed alike; where one did, ends the others.
-int failed(MPI_Comm rim, Kind kind, const char* sentence) {
+int failed(MPI_Comm rim, ErrorKind kind, const char* sentence) {
   const int code = static_cast<int>(kind);
   int mine = 0;
   MPI_Comm_rank(rim, &mine);
@@ -125,7 +125,7 @@ int end_petsc(int code) {
   PetscBool begun = PETSC_FALSE;
   PetscErrorCode ended = PetscInitialized(&begun);
   if (begun == PETSC_TRUE) ended = PetscFinalize();
-  return code == 0 && ended != 0 ? static_cast<int>(Kind::internal) : code;
+  return code == 0 && ended != 0 ? static_cast<int>(ErrorKind::internal) : code;
 }
 
 /// "check in.msh (what it does)", one after the other.
@@ -137,13 +137,13 @@ std::string list_of(const std::vector<Command>& commands, const char* separator)
   return text;
 }
 
-Ending run_command(const std::vector<Command>& commands, const std::vector<std::string>& words,
-                   bool help) {
+RunStatus run_command(const std::vector<Command>& commands, const std::vector<std::string>& words,
+                      bool help) {
   if (words.empty() && help) {
     int mine = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &mine);
     if (mine == 0) std::printf("commands:\n  %s\n", list_of(commands, "\n  ").c_str());
-    return Ending::complete;
+    return RunStatus::complete;
   }
   require(!words.empty(), "a command is missing; there are: " + list_of(commands, ", "));
   for (const Command& command : commands) {
@@ -156,8 +156,8 @@ Ending run_command(const std::vector<Command>& commands, const std::vector<std::
                 " [options]; given are " + std::to_string(words.size() - 1) + " words after it");
     return command.body({words.begin() + 1, words.end()});
   }
-  throw Error(Kind::input, "command \"" + words.front() +
-                               "\" is not known; there are: " + list_of(commands, ", "));
+  throw Error(ErrorKind::input, "command \"" + words.front() +
+                                    "\" is not known; there are: " + list_of(commands, ", "));
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ int run(int argc, char** argv, const std::vector<Command>& commands) {
   return run(count, rest.data(), [&] { return run_command(commands, words, help); });
 }
 
-int run(int argc, char** argv, const std::function<Ending()>& body) {
+int run(int argc, char** argv, const std::function<RunStatus()>& body) {
   int threads = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
   MPI_Comm rim = MPI_COMM_NULL;
@@ -194,9 +194,9 @@ int run(int argc, char** argv, const std::function<Ending()>& body) {
   } catch (const Error& error) {
     code = failed(rim, error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    code = failed(rim, Kind::internal, "out of memory");
+    code = failed(rim, ErrorKind::internal, "out of memory");
   } catch (const std::exception& error) {
-    code = failed(rim, Kind::internal, error.what());
+    code = failed(rim, ErrorKind::internal, error.what());
   }
   code = end_petsc(code);
   MPI_Comm_free(&rim);

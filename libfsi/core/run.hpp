@@ -8,20 +8,20 @@
 namespace fsi {
 
 /// How a run ended, when it ended well.
-enum class Ending : int { complete = 0, interrupted = 5 };
+enum class RunStatus : int { complete = 0, interrupted = 5 };
 
 /// Initialises MPI and PETSc (a first argument ending in .yaml or .yml is the options file), calls
 /// body, finalises; with -version prints program, version and commit instead. Returns the exit code
-/// of the program: the Ending, or the Kind of the Error thrown, whose sentence it prints once. An
-/// exception on one rank ends all ranks: none is left waiting.
-int run(int argc, char** argv, const std::function<Ending()>& body);
+/// of the program: the RunStatus, or the Kind of the Error thrown, whose sentence it prints once.
+/// An exception on one rank ends all ranks: none is left waiting.
+int run(int argc, char** argv, const std::function<RunStatus()>& body);
 
 /// One of the things a program of several commands does: PROGRAM NAME OPERANDS... [options].
 struct Command {
   std::string name;
   std::string operands;  ///< what they are, a word each: "in.msh out.h5"
   std::string purpose;
-  std::function<Ending(const std::vector<std::string>&)> body;  ///< takes the operands
+  std::function<RunStatus(const std::vector<std::string>&)> body;  ///< takes the operands
 };
 
 /// run() of the command that the first word names. Another or none, or another number of operands:

@@ -12,7 +12,7 @@
 namespace fsi {
 
 /// Where the values of a field live.
-enum class On {
+enum class Location {
   cells,  ///< [n_cells]: the owned part first (it can be the storage of a PETSc Vec), then the halo
   faces,  ///< [n_faces]: internal faces, then the boundary
   boundary,  ///< [n_boundary]: item f - n_internal belongs to face f
@@ -20,7 +20,7 @@ enum class On {
 
 /// A flat array with a value per mesh entity; moved, never copied by accident (copy with assign).
 /// Invariant: its size is the count of those entities.
-template <class T, On on>
+template <class T, Location on>
 class Field {
  public:
   using value_type = T;
@@ -41,8 +41,8 @@ class Field {
   std::span<T> all() { return values_; }
   std::span<const T> all() const { return values_; }
   /// The values of this rank's own cells.
-  std::span<T> owned() requires(on == On::cells) { return all().first(n_owned_); }
-  std::span<const T> owned() const requires(on == On::cells) { return all().first(n_owned_); }
+  std::span<T> owned() requires(on == Location::cells) { return all().first(n_owned_); }
+  std::span<const T> owned() const requires(on == Location::cells) { return all().first(n_owned_); }
 
   void fill(const T& value) { std::fill(values_.begin(), values_.end(), value); }
   void assign(const Field& other) { std::ranges::copy(other.values_, values_.begin()); }
@@ -50,17 +50,19 @@ class Field {
 
  private:
   static Index count(const Mesh& mesh) {
-    return on == On::cells ? mesh.n_cells : on == On::faces ? mesh.n_faces : mesh.n_boundary();
+    return on == Location::cells   ? mesh.n_cells
+           : on == Location::faces ? mesh.n_faces
+                                   : mesh.n_boundary();
   }
   std::vector<T> values_;
   std::size_t n_owned_;
 };
 
 template <class T>
-using CellField = Field<T, On::cells>;
+using CellField = Field<T, Location::cells>;
 template <class T>
-using FaceField = Field<T, On::faces>;
+using FaceField = Field<T, Location::faces>;
 template <class T>
-using BoundaryField = Field<T, On::boundary>;
+using BoundaryField = Field<T, Location::boundary>;
 
 }  // namespace fsi

@@ -30,13 +30,13 @@ Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
   return sum / (2 * mesh.V[c]);
 }
 
-std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real bend) {
+std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight) {
   if (dt_old <= 0) return {1, 0, 0};
   // int over [0, dt] of the line through 0 and -a, and of what the parabola through -b adds to it,
   // q'' t (t + a) / 2, both divided by dt
   const Real a = dt_old, b = dt_old + dt_before, slope = dt / (2 * a);
   if (dt_before <= 0 || dt > 2 * dt_old || dt_old > 2 * dt_before) return {1 + slope, -slope, 0};
-  const Real mean = bend * (dt * dt / 3 + a * dt / 2);
+  const Real mean = ab3_weight * (dt * dt / 3 + a * dt / 2);
   return {1 + slope + mean / (a * b), -slope - mean / (a * (b - a)), mean / (b * (b - a))};
 }
 
@@ -63,11 +63,11 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  if (weights.uneven) past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+  if (weights.uneven) old_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
   set_theta(1);
 }
 
-void Momentum::expect(Real mu_max) {
+void Momentum::bound_explicit_viscosity(Real mu_max) {
   Real spread = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     Real sum = 0;
@@ -120,14 +120,14 @@ void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa,
   system_.renewed();
 }
 
-void Momentum::hold_past() {
+void Momentum::hold_old() {
   whole_past_ = true;
-  if (!past_) past_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+  if (!old_) old_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
 }
 
 // Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,
 // three quarters of it at 0.72 best (0.91), the line nowhere; with viscosity the line bears more.
-Real Momentum::bend(const FaceField<Real>& phi, Real dt) const {
+Real Momentum::ab3_weight(const FaceField<Real>& phi, Real dt) const {
   constexpr Real whole = 0.66, none = 0.9;
   Real rate = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) rate = std::max(rate, courant_rate(phi, mesh_, c));
@@ -137,7 +137,7 @@ Real Momentum::bend(const FaceField<Real>& phi, Real dt) const {
 // Histories are written in place: checkpoints and backups know their address.
 void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   auto& [last, before, rest] = history_;
-  const auto w = adams_bashforth(dt, dt_old, dt_before, bend(terms.phi, dt));
+  const auto w = adams_bashforth(dt, dt_old, dt_before, ab3_weight(terms.phi, dt));
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= rho_ * (w[1] * last[c] + w[2] * before[c]);
   before.assign(last);
   if (reads_L())
@@ -166,11 +166,11 @@ void Momentum::add_rest(const MomentumTerms& terms, Real dt) {
 
 void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
-  if (!past_) return;
+  if (!old_) return;
   if (steps_taken >= damped_steps && (whole_past_ || theta_at(dt) == 0.5))
-    viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, past_->u, past_->u_b,
-                 boundary_, weights_, mesh_);
-  past_->u.assign(u);
+    viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, old_->u, old_->u_b, boundary_,
+                 weights_, mesh_);
+  old_->u.assign(u);
 }
 
 void Momentum::add_sources(const MomentumTerms& terms) {

@@ -19,11 +19,11 @@ namespace fsi::flow {
 Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c);
 
 /// Weights of what is known at t^n, at dt_old before and at dt_before before that, for its mean
-/// over the dt after t^n [Hairer93] (III.5): by the line through the first two and the part `bend`
-/// of what the parabola through all three adds to it; 1: exact for quadratic functions of t, 0: for
-/// linear ones. By the line where dt_before is 0 or a step more than twice the one before it, so
-/// far beyond which the parabola would exaggerate; by the first where dt_old is 0.
-std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real bend);
+/// over the dt after t^n [Hairer93] (III.5): by the line through the first two and the part
+/// `ab3_weight` of what the parabola through all three adds to it; 1: exact for quadratic functions
+/// of t, 0: for linear ones. By the line where dt_before is 0 or a step more than twice the one
+/// before it, so far beyond which the parabola would exaggerate; by the first where dt_old is 0.
+std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight);
 
 /// What the predictor needs besides u.
 struct MomentumTerms {
@@ -73,25 +73,26 @@ class Momentum {
   Real dt_old = 0, dt_before = 0;  ///< lengths of those steps, 0: none yet
   std::int64_t steps_taken = 0;
   Real theta = 0.5;  ///< after the first steps, at least
-  /// The least theta of a step of dt after the first ones: more than `theta` after `expect` where
-  /// viscosity smooths a cell within the step, as the transposed term would make it unstable.
-  /// From 1/2 where l = mu dt / rho max_c sum g / V is below 2 it rises to 1 as 1 - 1 / l.
+  /// The least theta of a step of dt after the first ones: more than `theta` after
+  /// `bound_explicit_viscosity` where viscosity smooths a cell within the step, as the transposed
+  /// term would make it unstable. From 1/2 where l = mu dt / rho max_c sum g / V is below 2 it
+  /// rises to 1 as 1 - 1 / l.
   Real theta_at(Real dt) const;
   /// theta_f of the last `predict`, what goes with its u*.
   const FaceField<Real>& theta_taken() const { return theta_f_; }
   /// Collective. There is a transposed viscous term of a viscosity up to mu_max: raises theta_at
   /// and extrapolates less of the rest. Before the first step.
-  void expect(Real mu_max);
+  void bound_explicit_viscosity(Real mu_max);
   /// The velocity before the last step, part of a checkpoint, and at the boundary, to be set from
   /// it before `predict`.
-  struct Past {
+  struct Old {
     CellField<Vec3> u;
     BoundaryField<Vec3> u_b;
   };
   /// Second order in time from now on where theta = 1 at all faces; before the first step.
-  void hold_past();
-  /// Empty on regular meshes without hold_past.
-  std::optional<Past>& past() { return past_; }
+  void hold_old();
+  /// Empty on regular meshes without hold_old.
+  std::optional<Old>& old() { return old_; }
   const ViscousBoundary& boundary() const { return boundary_; }
   /// Whether L is read at all.
   bool reads_L() const {
@@ -100,7 +101,7 @@ class Momentum {
 
  private:
   /// Collective. The part of AB3 in a step of dt.
-  Real bend(const FaceField<Real>& phi, Real dt) const;
+  Real ab3_weight(const FaceField<Real>& phi, Real dt) const;
   void set_theta(Real theta_now);
   void add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_rest(const MomentumTerms& terms, Real dt);
@@ -122,7 +123,7 @@ class Momentum {
   History history_;
   FaceField<Real> theta_f_;
   CellField<Vec3> rhs_;
-  std::optional<Past> past_;
+  std::optional<Old> old_;
   bool whole_past_ = false;  // also where theta is 1 at all faces
   std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]
   VectorSystem system_;

@@ -26,13 +26,13 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const FaceWeights& weights, const Mesh& mesh) {
   const auto damped = [&](Index f, Real dt) {
     const Real implicit =
-        terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.strained * terms.elastic[f];
+        terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
     return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
   };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
   constexpr Real courant = 0.02, whole = 1e-7;  // balance of a face where the stress acts fully
   const auto time = [&](Index f, const Vec3& u_f) {
-    const Real size = std::abs(terms.balance[f]);
+    const Real size = std::abs(terms.rhie_chow_source[f]);
     if (size == 0) return terms.dt;
     const Real acts = terms.stress > 0 ? std::min(Real{1}, size / (whole * terms.stress)) : 1;
     const Real shorter =
@@ -44,8 +44,8 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     const Real lambda = weights.lambda[f];
     Vec3 u_f = lambda * u[P] + (1 - lambda) * u[N];
     const Vec3 grad_f = lambda * terms.grad_p[P] + (1 - lambda) * terms.grad_p[N];
-    Real brace =
-        dot(grad_f, mesh.Sf[f]) + weights.g[f] * (terms.balance[f] - (terms.p[N] - terms.p[P]));
+    Real brace = dot(grad_f, mesh.Sf[f]) +
+                 weights.g[f] * (terms.rhie_chow_source[f] - (terms.p[N] - terms.p[P]));
     if (i >= 0) {
       u_f += dot(terms.L_f[i], weights.from_mirror(f, mesh));
       brace -= dot(terms.grad_p_f[i], weights.k[f]);
@@ -165,18 +165,19 @@ void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
     if (open_face_[b] != 0) phi[mesh_.n_internal + b] += weights_.g[mesh_.n_internal + b] * shift;
 }
 
-Solve Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
-                          const BoundaryField<Real>& q_b, Real absolute) {
+SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
+                                const BoundaryField<Real>& q_b, Real absolute) {
   balance_boundary(phi);
   // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
   // sine of the angle: two digits are enough there.
   constexpr Real loosened = 1e4;
   q.fill(0);
   std::ranges::fill(grad_f_, Vec3{});
-  Solve total;
+  SolveResult total;
   for (int corrector = 0; corrector <= correctors_; ++corrector) {
     set_outflow(phi, q_b);
-    const Solve solve = system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
+    const SolveResult solve =
+        system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
     total.iterations += solve.iterations;
     total.residual = solve.residual;
     if (corrector < correctors_) set_face_gradient(q, q_b);

@@ -17,17 +17,18 @@ struct FluxTerms {
   const std::vector<Tensor>& L_f;  ///< of u*, at irregular faces
   const CellField<Real>& p;
   const CellField<Vec3>& grad_p;
-  const std::vector<Vec3>& grad_p_f;  ///< of p at irregular faces
-  const BoundaryField<Real>& p_b;     ///< read on openings only
-  const FaceField<Real>&
-      balance;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f . d; 0 outside the solid
+  const std::vector<Vec3>& grad_p_f;        ///< of p at irregular faces
+  const BoundaryField<Real>& p_b;           ///< read on openings only
+  const FaceField<Real>& rhie_chow_source;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f .
+                                            ///< d; 0 outside the solid
   const FaceField<Real>& mu;
   const FaceField<Real>& theta;
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
   Real rho = 1, dt = 0;
-  Real stress = 0;    ///< scale of the elastic stress; 0: there is none
-  Real strained = 0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
+  Real stress = 0;  ///< scale of the elastic stress; 0: there is none
+  Real flux_strain =
+      0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
@@ -62,8 +63,8 @@ class Projection {
   /// tolerance, its sum over the boundary zero to round-off; q and grad_q (owned and halo) are what
   /// u and p are to be corrected with. absolute: see LinearSystem::solve, in units of volume per
   /// time. Errors: Error{numerics}.
-  Solve project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
-                const BoundaryField<Real>& q_b, Real absolute);
+  SolveResult project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
+                      const BoundaryField<Real>& q_b, Real absolute);
 
   /// Collective. grad p, owned and halo, and at irregular faces (operators/gradient.hpp); p: owned
   /// and halo, p_b: at openings.

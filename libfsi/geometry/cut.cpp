@@ -220,8 +220,8 @@ void Polytope::add_face(std::span<const Vec3> corners, bool reversed) {
   const int n = static_cast<int>(corners.size());
   const bool fan = n > 3;
   if (n_points_ + n + (fan ? 1 : 0) > max_points || n_facets_ + (fan ? n : 1) > max_facets) {
-    throw Error(Kind::internal, "geometry::Polytope: more than " + std::to_string(max_facets) +
-                                    " facets in a cell");
+    throw Error(ErrorKind::internal, "geometry::Polytope: more than " + std::to_string(max_facets) +
+                                         " facets in a cell");
   }
   const int first = n_points_;
   const auto corner = [&](int i) {

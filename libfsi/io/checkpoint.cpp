@@ -106,9 +106,9 @@ void share_scalars(const Snapshot& snapshot) {
 Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)
     : directory_(std::move(directory)),
       mesh_(mesh),
-      cells_(mesh, On::cells),
-      faces_(mesh, On::faces),
-      boundary_(mesh, On::boundary) {
+      cells_(mesh, Location::cells),
+      faces_(mesh, Location::faces),
+      boundary_(mesh, Location::boundary) {
   if (rank() == 0) {
     const std::vector<std::int64_t> numbers = numbers_in(directory_);
     if (!numbers.empty()) next_ = numbers.back() + 1;
@@ -118,8 +118,8 @@ Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)
   MPI_Bcast(&next_, 1, MPI_INT64_T, 0, comm());
 }
 
-const Layout& Checkpoint::layout(On on) const {
-  return on == On::cells ? cells_ : on == On::faces ? faces_ : boundary_;
+const Layout& Checkpoint::layout(Location on) const {
+  return on == Location::cells ? cells_ : on == Location::faces ? faces_ : boundary_;
 }
 
 std::string Checkpoint::path(std::int64_t number) const {
@@ -142,7 +142,7 @@ void Checkpoint::clear() const {
     std::filesystem::remove(path(number), code);
 }
 
-std::uint64_t Checkpoint::rows(On on) const {
+std::uint64_t Checkpoint::rows(Location on) const {
   return static_cast<std::uint64_t>(layout(on).size());
 }
 
@@ -196,7 +196,7 @@ bool Checkpoint::write(const Snapshot& snapshot) {
   return true;
 }
 
-std::string Checkpoint::objection(const Hdf5File& file, const Snapshot& snapshot) const {
+std::string Checkpoint::rejection_reason(const Hdf5File& file, const Snapshot& snapshot) const {
   std::int64_t hash = 0, version = 0, cells = 0;
   std::string identity;
   if (!file.ok() || !file.attribute("/", "format", version) || version != format)
@@ -219,7 +219,7 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
   };
   std::optional<Hdf5File> source;
   if (rank() == 0) source.emplace(file);
-  agree(source ? objection(*source, snapshot) : "");
+  agree(source ? rejection_reason(*source, snapshot) : "");
   const Hdf5File fields(file);
   for (const Snapshot::Values& f : snapshot.fields()) {
     const Layout& where = layout(f.on);
@@ -233,7 +233,7 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
     require(all_of_ranks(good),
             "checkpoint \"" + file + "\" holds no field \"" + f.name + "\" of this size");
     where.scatter(mine, f.width, f.values);
-    if (f.on == On::cells) mesh_.halo.update(f.values, f.width);
+    if (f.on == Location::cells) mesh_.halo.update(f.values, f.width);
   }
   share_scalars(snapshot);
 }
@@ -259,7 +259,7 @@ void Checkpoint::read(const Snapshot& snapshot) {
   sound = broadcast(sound);
   damaged = broadcast(damaged);
   if (sound.empty() && !damaged.empty())
-    throw Error(Kind::io, "all checkpoints are damaged: " + damaged);
+    throw Error(ErrorKind::io, "all checkpoints are damaged: " + damaged);
   require(!sound.empty(), "there is no checkpoint in \"" + directory_ +
                               "\" to go on from; leave out -restart, or choose its -output_dir");
   load(sound, snapshot);

@@ -22,7 +22,7 @@ class Snapshot {
   using Scalar = std::variant<Real*, std::int64_t*, std::string*>;
   struct Values {
     std::string name;
-    On on;
+    Location on;
     int width;
     Real* values;
     std::string instead;
@@ -33,7 +33,7 @@ class Snapshot {
   explicit Snapshot(std::string identity = "") : identity_(std::move(identity)) {}
 
   /// instead: what to read where a checkpoint has no field of that name; "": it is refused.
-  template <class T, On on>
+  template <class T, Location on>
   void add(const std::string& name, Field<T, on>& field, const std::string& instead = "") {
     fields_.push_back({name, on, components<T>, reinterpret_cast<Real*>(field.data()), instead});
   }
@@ -75,13 +75,13 @@ class Checkpoint {
   const std::string& file() const { return file_; }
 
  private:
-  const Layout& layout(On on) const;
+  const Layout& layout(Location on) const;
   std::string path(std::int64_t number) const;
   void keep_two() const;
-  std::uint64_t rows(On on) const;
+  std::uint64_t rows(Location on) const;
   std::string write_fields(const Snapshot& snapshot, const Hdf5Image* image,
                            std::vector<std::uint64_t>& offset) const;
-  std::string objection(const Hdf5File& file, const Snapshot& snapshot) const;
+  std::string rejection_reason(const Hdf5File& file, const Snapshot& snapshot) const;
   void load(const std::string& file, const Snapshot& snapshot) const;
 
   std::string directory_, file_;

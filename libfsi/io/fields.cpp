@@ -46,7 +46,7 @@ void put_parts(SharedFile& file, std::uint64_t room, const std::vector<T>& part)
 }  // namespace
 
 FieldWriter::FieldWriter(std::string directory, const Mesh& mesh, Real resume_at)
-    : directory_(std::move(directory)), mesh_(mesh), cells_(mesh, On::cells) {
+    : directory_(std::move(directory)), mesh_(mesh), cells_(mesh, Location::cells) {
   take_up(resume_at);
   write_mesh();
 }
@@ -130,7 +130,8 @@ std::string FieldWriter::write_cells(const std::string& path, std::span<const Na
 }
 
 void FieldWriter::write(Real t, std::span<const NamedField> fields) {
-  for (const NamedField& f : fields) require_finite(f.name, f.values, f.width, On::cells, mesh_);
+  for (const NamedField& f : fields)
+    require_finite(f.name, f.values, f.width, Location::cells, mesh_);
   std::optional<Hdf5Image> image;
   std::vector<std::uint64_t> offset(fields.size(), 0);
   const bool anew = !entries_.empty() && entries_.back().t == t;

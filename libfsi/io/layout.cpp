@@ -94,11 +94,11 @@ Layout::~Layout() = default;
 Layout::Layout(Layout&&) noexcept = default;
 Layout& Layout::operator=(Layout&&) noexcept = default;
 
-Layout::Layout(const Mesh& mesh, On on) {
-  if (on == On::cells) {
+Layout::Layout(const Mesh& mesh, Location on) {
+  if (on == Location::cells) {
     size_ = mesh.n_global, n_local_ = mesh.n_owned;
   } else {
-    const Index first = on == On::boundary ? mesh.n_internal : 0;
+    const Index first = on == Location::boundary ? mesh.n_internal : 0;
     n_local_ = mesh.n_faces - first;
     GlobalIndex owned = 0;
     for (Index f = first; f < mesh.n_faces; ++f) owned += mesh.owner[f] < mesh.n_owned ? 1 : 0;
@@ -107,15 +107,15 @@ Layout::Layout(const Mesh& mesh, On on) {
   const Stretches stretches = Stretches::even(static_cast<Index>(size_));
   first_ = stretches.first(), mine_ = stretches.mine();
   if (ranks() == 1) return;
-  if (on == On::cells)
+  if (on == Location::cells)
     connect({mesh.global_id.begin(), mesh.global_id.begin() + mesh.n_owned});
   else
-    connect(places_of_faces(mesh, on == On::boundary));
+    connect(places_of_faces(mesh, on == Location::boundary));
 }
 
 /// The complement ~place where another rank owns the face.
 std::vector<GlobalIndex> Layout::places_of_faces(const Mesh& mesh, bool boundary_only) {
-  const std::vector<Real> begin = beginnings(mesh, Layout(mesh, On::cells), boundary_only);
+  const std::vector<Real> begin = beginnings(mesh, Layout(mesh, Location::cells), boundary_only);
   const std::size_t kinds = mesh.patches.size() + 1;
   std::vector<GlobalIndex> places;
   places.reserve(static_cast<std::size_t>(n_local_));
@@ -186,11 +186,11 @@ void Layout::scatter(std::span<const Real> stretch, int width, Real* values) con
   FSI_PETSC(PetscSFBcastEnd(exchange_->all, unit, stretch.data(), values, MPI_REPLACE));
 }
 
-void require_finite(const std::string& name, const Real* values, int width, On on,
+void require_finite(const std::string& name, const Real* values, int width, Location on,
                     const Mesh& mesh) {
   constexpr GlobalIndex none = std::numeric_limits<GlobalIndex>::max();
-  const Index first = on == On::boundary ? mesh.n_internal : 0;
-  const Index n = on == On::cells ? mesh.n_owned : mesh.n_faces - first;
+  const Index first = on == Location::boundary ? mesh.n_internal : 0;
+  const Index n = on == Location::cells ? mesh.n_owned : mesh.n_faces - first;
   const auto finite = [&](Index i) {
     const Real* item = values + static_cast<std::ptrdiff_t>(i) * width;
     return std::all_of(item, item + width, [](Real value) { return std::isfinite(value); });
@@ -198,7 +198,7 @@ void require_finite(const std::string& name, const Real* values, int width, On o
   Index i = 0;
   while (i < n && finite(i)) ++i;
   const auto cell_of = [&](Index item) {
-    return on == On::cells ? item : mesh.owner[static_cast<std::size_t>(first + item)];
+    return on == Location::cells ? item : mesh.owner[static_cast<std::size_t>(first + item)];
   };
   const GlobalIndex mine = i < n ? mesh.global_id[static_cast<std::size_t>(cell_of(i))] : none;
   GlobalIndex lowest = none;
@@ -208,12 +208,13 @@ void require_finite(const std::string& name, const Real* values, int width, On o
   MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MAX, comm());
   char place[128] = "";
   if (rank() == holder) {
-    const Vec3& x = on == On::cells ? mesh.C[i] : mesh.Cf[first + i];
+    const Vec3& x = on == Location::cells ? mesh.C[i] : mesh.Cf[first + i];
     std::snprintf(place, sizeof place, "%s cell %lld at (%.6g, %.6g, %.6g)",
-                  on == On::cells ? "in" : "on a face of", static_cast<long long>(lowest), x.x, x.y,
-                  x.z);
+                  on == Location::cells ? "in" : "on a face of", static_cast<long long>(lowest),
+                  x.x, x.y, x.z);
   }
-  throw Error(Kind::numerics, "field \"" + name + "\" is not finite " + broadcast(place, holder));
+  throw Error(ErrorKind::numerics,
+              "field \"" + name + "\" is not finite " + broadcast(place, holder));
 }
 
 }  // namespace fsi::io

@@ -19,7 +19,7 @@ namespace fsi::io {
 class Layout {
  public:
   /// Collective.
-  Layout(const Mesh& mesh, On on);
+  Layout(const Mesh& mesh, Location on);
   ~Layout();
   Layout(Layout&&) noexcept;
   Layout& operator=(Layout&&) noexcept;
@@ -52,7 +52,7 @@ class Layout {
 
 /// Collective. Errors: Error{numerics} naming field, cell and place of a value that is not finite.
 /// values: `width` Reals per item.
-void require_finite(const std::string& name, const Real* values, int width, On on,
+void require_finite(const std::string& name, const Real* values, int width, Location on,
                     const Mesh& mesh);
 
 }  // namespace fsi::io

@@ -40,7 +40,7 @@ const std::string& make_directory(const std::string& directory) {
   std::error_code code;
   if (rank() == 0) std::filesystem::create_directories(directory, code);
   if (!all_of_ranks(!code))
-    throw Error(Kind::io,
+    throw Error(ErrorKind::io,
                 "directory \"" + directory + "\" cannot be made: " + broadcast(code.message()));
   return directory;
 }
@@ -50,7 +50,7 @@ void write_text(const std::string& file, const std::string& text) {
   if (rank() == 0) reason = replace_file(file, {std::as_bytes(std::span(text))}, Durable::no);
   reason = broadcast(reason);
   if (!reason.empty())
-    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + reason);
+    throw Error(ErrorKind::io, "file \"" + file + "\" could not be written: " + reason);
 }
 
 std::string json(const Summary& s) {

@@ -39,7 +39,7 @@ Table::Table(const std::string& file, std::vector<std::string> columns, Real res
           "file \"" + file + "\" has other columns than this run writes; move it away");
   reason = broadcast(reason);
   if (!reason.empty())
-    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + reason);
+    throw Error(ErrorKind::io, "file \"" + file + "\" could not be written: " + reason);
 }
 
 void Table::row(std::span<const Real> values) {
@@ -54,7 +54,8 @@ void Table::row(std::span<const Real> values) {
   }
   culprit = broadcast(culprit);
   if (!culprit.empty())
-    throw Error(Kind::numerics, "column \"" + culprit + "\" of \"" + file_ + "\" is not finite");
+    throw Error(ErrorKind::numerics,
+                "column \"" + culprit + "\" of \"" + file_ + "\" is not finite");
   if (rank() == 0) stream_ << line << std::endl;
   const bool good = rank() != 0 || stream_.good();
   if (good) whole_ += line.size() + 1;
@@ -64,7 +65,7 @@ void Table::row(std::span<const Real> values) {
     std::filesystem::resize_file(file_, whole_, code);
   }
   if (!all_of_ranks(good))
-    throw Error(Kind::io, "file \"" + file_ + "\" could not be written: is the disk full?");
+    throw Error(ErrorKind::io, "file \"" + file_ + "\" could not be written: is the disk full?");
 }
 
 }  // namespace fsi::io

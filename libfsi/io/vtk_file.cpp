@@ -49,7 +49,7 @@ void add(Hdf5Image& image, const VtkMesh& mesh) {
 void agree(const std::string& file, const std::string& reason) {
   const std::string shared = broadcast(reason);
   if (!shared.empty())
-    throw Error(Kind::io, "file \"" + file + "\" could not be written: " + shared);
+    throw Error(ErrorKind::io, "file \"" + file + "\" could not be written: " + shared);
 }
 
 void write_cells(const std::string& path, const Mesh& mesh, std::span<const Index> cells,

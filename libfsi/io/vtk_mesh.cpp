@@ -26,7 +26,7 @@ std::uint8_t type_of(int dim, std::size_t corners) {
     case 5:
       return 14;  // pyramid
     default:
-      throw Error(Kind::internal, "a cell of " + std::to_string(corners) + " corners");
+      throw Error(ErrorKind::internal, "a cell of " + std::to_string(corners) + " corners");
   }
 }
 

@@ -71,7 +71,7 @@ const Offset& offset_in(const CellList& list, Index cell, Index v) {
   for (const Index p : list.corners[cell]) {
     if (list.vertex[p] == v) return list.offset[p];
   }
-  throw Error(Kind::internal, "mesh: a cell does not have a vertex it was listed for");
+  throw Error(ErrorKind::internal, "mesh: a cell does not have a vertex it was listed for");
 }
 
 std::int8_t shift_of(const Offset& a, const Offset& b) {
@@ -79,7 +79,7 @@ std::int8_t shift_of(const Offset& a, const Offset& b) {
   for (std::size_t k = 0; k < a.size(); ++k, base *= 3) {
     const int difference = a[k] - b[k];
     if (difference < -1 || difference > 1) {
-      throw Error(Kind::internal, "mesh: a cell is more than one period from its neighbour");
+      throw Error(ErrorKind::internal, "mesh: a cell is more than one period from its neighbour");
     }
     row += base * (difference == -1 ? 2 : difference);
   }

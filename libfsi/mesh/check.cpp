@@ -7,9 +7,9 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/mesh/check_cells.hpp"
+#include "libfsi/mesh/messages.hpp"
 #include "libfsi/mesh/metrics.hpp"
-#include "libfsi/mesh/seams.hpp"
-#include "libfsi/mesh/sentences.hpp"
+#include "libfsi/mesh/periodic.hpp"
 
 namespace fsi {
 namespace {
@@ -225,7 +225,7 @@ CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
   require(raw.n_cells() > 1, raw.file + " has only one cell, element " +
                                  std::to_string(raw.tags[0]) +
                                  ": a flow needs cells beside each other; make the mesh finer");
-  Seams seams = join_seams(raw, periodic);
+  PeriodicPairs seams = join_periodic(raw, periodic);
   CellList list;
   list.dim = raw.dim;
   list.points = raw.points;

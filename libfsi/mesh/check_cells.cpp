@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/mesh/messages.hpp"
 #include "libfsi/mesh/metrics.hpp"
-#include "libfsi/mesh/sentences.hpp"
 
 namespace fsi {
 namespace {

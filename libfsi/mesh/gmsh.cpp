@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "libfsi/core/memory.hpp"
-#include "libfsi/mesh/source.hpp"
+#include "libfsi/mesh/token_reader.hpp"
 
 namespace fsi {
 namespace {
@@ -360,7 +360,7 @@ RawMesh parse_gmsh(const std::string& file, std::string text) {
 RawMesh read_gmsh(const std::string& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in || std::filesystem::is_directory(file))
-    throw Error(Kind::input, "mesh file \"" + file + "\" cannot be opened, or it is a folder");
+    throw Error(ErrorKind::input, "mesh file \"" + file + "\" cannot be opened, or it is a folder");
   const auto end = in.tellg();
   const auto size = end > 0 ? static_cast<std::size_t>(end) : 0;
   const std::uint64_t memory = memory_limit();
@@ -371,10 +371,10 @@ RawMesh read_gmsh(const std::string& file) {
   std::string text(size, '\0');
   in.seekg(0);
   if (!in.read(text.data(), static_cast<std::streamsize>(text.size()))) {
-    throw Error(Kind::io, "mesh file \"" + file + "\" cannot be read");
+    throw Error(ErrorKind::io, "mesh file \"" + file + "\" cannot be read");
   }
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw Error(Kind::input, "mesh file \"" + file + "\" is empty");
+    throw Error(ErrorKind::input, "mesh file \"" + file + "\" is empty");
   }
   return parse_gmsh(file, std::move(text));
 }

@@ -10,8 +10,9 @@ const Patch& Mesh::patch(const std::string& name) const {
     if (p.name == name) return p;
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  throw Error(Kind::input, "patch \"" + name + "\" unknown; mesh has: " +
-                               (names.empty() ? "no patch (every boundary is periodic)" : names));
+  throw Error(ErrorKind::input,
+              "patch \"" + name + "\" unknown; mesh has: " +
+                  (names.empty() ? "no patch (every boundary is periodic)" : names));
 }
 
 }  // namespace fsi

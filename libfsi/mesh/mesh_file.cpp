@@ -12,7 +12,7 @@
 #include "libfsi/core/hdf5_handle.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/exchange.hpp"
-#include "libfsi/mesh/sentences.hpp"
+#include "libfsi/mesh/messages.hpp"
 
 namespace fsi {
 namespace {
@@ -239,7 +239,7 @@ void write_mesh_tables(const std::string& file, const CellList& whole,
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   bool good = opened >= 0 && write(opened, whole, periodic);
   if (opened >= 0) good = H5Fclose(opened) >= 0 && good;
-  if (!good) throw Error(Kind::io, "mesh file \"" + file + "\" cannot be written");
+  if (!good) throw Error(ErrorKind::io, "mesh file \"" + file + "\" cannot be written");
 }
 
 CellList read_mesh_tables(const std::string& file, const std::vector<std::string>& periodic) {
@@ -249,7 +249,7 @@ CellList read_mesh_tables(const std::string& file, const std::vector<std::string
   int teller = fault.empty() ? ranks() : rank();
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm());
   if (teller == ranks()) return slab;
-  throw Error(Kind::input, "mesh file \"" + file + "\" " + broadcast(fault, teller));
+  throw Error(ErrorKind::input, "mesh file \"" + file + "\" " + broadcast(fault, teller));
 }
 
 }  // namespace fsi

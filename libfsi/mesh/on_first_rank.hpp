@@ -14,7 +14,7 @@ namespace fsi {
 template <class Work>
 void on_first_rank(const Work& work) {
   std::string fault;
-  auto kind = static_cast<int>(Kind::internal);
+  auto kind = static_cast<int>(ErrorKind::internal);
   if (rank() == 0) {
     try {
       work();
@@ -26,7 +26,7 @@ void on_first_rank(const Work& work) {
   }
   fault = broadcast(fault);
   MPI_Bcast(&kind, 1, MPI_INT, 0, comm());
-  if (!fault.empty()) throw Error(static_cast<Kind>(kind), fault);
+  if (!fault.empty()) throw Error(static_cast<ErrorKind>(kind), fault);
 }
 
 }  // namespace fsi

@@ -54,7 +54,7 @@ std::int64_t convert_mesh(const std::string& from, const std::string& to,
   on_first_rank([&] {
     whole = check_mesh(read_gmsh(from), periodic);
     if (!std::ofstream(temporary))
-      throw Error(Kind::io, "mesh file \"" + to + "\" cannot be written");
+      throw Error(ErrorKind::io, "mesh file \"" + to + "\" cannot be written");
   });
   std::int64_t n_cells = whole.n_global;
   std::string names;
@@ -72,7 +72,7 @@ std::int64_t convert_mesh(const std::string& from, const std::string& to,
     write_mesh_tables(temporary, whole, periodic);
     std::error_code code;
     std::filesystem::rename(temporary, to, code);
-    if (code) throw Error(Kind::io, "mesh file \"" + to + "\" cannot be written");
+    if (code) throw Error(ErrorKind::io, "mesh file \"" + to + "\" cannot be written");
   });
   return n_cells;
 }

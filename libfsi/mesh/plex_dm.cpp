@@ -63,7 +63,8 @@ void set_labels(DM plex, PetscInt first_vertex, const std::vector<Index>& vertic
     FSI_PETSC(DMPlexGetFullJoin(plex, n, points.data(), &found, &join));
     const PetscInt point = found == 1 ? join[0] : -1;
     FSI_PETSC(DMPlexRestoreJoin(plex, n, points.data(), &found, &join));
-    if (point < 0) throw Error(Kind::internal, "mesh: a boundary face is no face of the DMPlex");
+    if (point < 0)
+      throw Error(ErrorKind::internal, "mesh: a boundary face is no face of the DMPlex");
     FSI_PETSC(DMSetLabelValue(plex, "Face Sets", point, 1 + face.patch));
     FSI_PETSC(DMSetLabelValue(plex, patches[face.patch].c_str(), point, 1 + face.patch));
   }

@@ -216,7 +216,7 @@ Parts partition_cells(const CellList& here, const Stretches& cells, Index n_vert
   std::vector<std::int32_t> part;
   if (rank() == 0) part = divide(graph, ranks());
   const bool divided = static_cast<Index>(part.size()) == (rank() == 0 ? cells.size() : 0);
-  if (!all_of_ranks(divided)) throw Error(Kind::internal, "METIS could not divide the mesh");
+  if (!all_of_ranks(divided)) throw Error(ErrorKind::internal, "METIS could not divide the mesh");
   return sorted(scattered(part, cells));
 }
 

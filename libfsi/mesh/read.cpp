@@ -18,9 +18,9 @@ namespace {
 Error beyond_memory(const std::string& file) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(file, code);
-  return {Kind::input, "mesh file \"" + file + "\" of " + text_of_bytes(code ? 0 : size) +
-                           " does not fit into the " + text_of_bytes(memory_limit()) +
-                           " of memory that this process can have"};
+  return {ErrorKind::input, "mesh file \"" + file + "\" of " + text_of_bytes(code ? 0 : size) +
+                                " does not fit into the " + text_of_bytes(memory_limit()) +
+                                " of memory that this process can have"};
 }
 
 /// `work` on a file, whose size is to blame where memory runs out.

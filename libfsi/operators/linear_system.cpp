@@ -166,7 +166,8 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   if (h.cycle) cycle_on_levels(h.solver, h.null_space);
 }
 
-Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, Real loosened) {
+SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute,
+                                Real loosened) {
   Handles& h = *handles_;
   FSI_PETSC(VecPlaceArray(h.x, x.data()));
   FSI_PETSC(VecPlaceArray(h.b, b.data()));
@@ -184,7 +185,7 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
   FSI_PETSC(KSPSetTolerances(h.solver, rtol, given, divergence, most));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  Solve result;
+  SolveResult result;
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
   FSI_PETSC(KSPGetIterationNumber(h.solver, &its));
   FSI_PETSC(KSPGetResidualNorm(h.solver, &result.residual));
@@ -192,7 +193,7 @@ Solve LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute, 
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics,
+    throw Error(ErrorKind::numerics,
                 "system \"" + h.name + "\" did not converge: " + KSPConvergedReasons[reason]);
   h.mesh.halo.update(x);
   return result;

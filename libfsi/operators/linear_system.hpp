@@ -27,7 +27,7 @@ enum class Method {
 };
 
 /// What a solve took.
-struct Solve {
+struct SolveResult {
   int iterations = 0;
   Real residual = 0;  ///< norm at the end, as the solver measures it
 };
@@ -48,7 +48,7 @@ class LinearSystem {
   /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
   /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.
   /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
-  Solve solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0, Real loosened = 1);
+  SolveResult solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0, Real loosened = 1);
 
  private:
   struct Handles;

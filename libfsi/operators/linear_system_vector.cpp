@@ -166,14 +166,14 @@ void VectorSystem::renewed() {
   FSI_PETSC(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(handles_->shell)));
 }
 
-Solve VectorSystem::solve(std::span<Real> x, std::span<Real> b) {
+SolveResult VectorSystem::solve(std::span<Real> x, std::span<Real> b) {
   Handles& h = *handles_;
   FSI_PETSC(VecPlaceArray(h.x, x.data()));
   FSI_PETSC(VecPlaceArray(h.b, b.data()));
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));
   PetscInt its = 0;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  Solve result;
+  SolveResult result;
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
   FSI_PETSC(KSPGetIterationNumber(h.solver, &its));
   FSI_PETSC(KSPGetResidualNorm(h.solver, &result.residual));
@@ -181,7 +181,7 @@ Solve VectorSystem::solve(std::span<Real> x, std::span<Real> b) {
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);
   if (reason < 0)
-    throw Error(Kind::numerics,
+    throw Error(ErrorKind::numerics,
                 "system \"" + h.name + "\" did not converge: " + KSPConvergedReasons[reason]);
   h.op.mesh.halo.update(x.data(), h.op.mesh.dim);
   return result;

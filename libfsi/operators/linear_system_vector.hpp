@@ -40,7 +40,7 @@ class VectorSystem {
   /// latter set on return; b: owned. Iterates until the natural norm of the residual falls by the
   /// relative tolerance. Errors: Error{numerics} with the system's name and PETSc's reason when it
   /// does not converge.
-  Solve solve(std::span<Real> x, std::span<Real> b);
+  SolveResult solve(std::span<Real> x, std::span<Real> b);
 
  private:
   struct Handles;

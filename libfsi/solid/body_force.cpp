@@ -2,15 +2,15 @@
 
 namespace fsi::solid {
 
-void BodyForce::apply(CellField<Vec3>& force, FaceField<Real>& balance,
+void BodyForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
                       const FaceField<Real>& alpha_f, PressureStencil& pressure, const Band& band) {
-  level_.clear();
+  jump_force_.clear();
   for (const Index f : band.faces()) {
     const Real F = alpha_f[f] * dot(a_, mesh_.d[f]);
-    level_.add(f, F, pressure.cells);
-    if (f < mesh_.n_internal) balance[f] += F;
+    jump_force_.add(f, F, pressure.cells);
+    if (f < mesh_.n_internal) rhie_chow_source[f] += F;
   }
-  level_.apply(force, balance, pressure, band);
+  jump_force_.apply(force, rhie_chow_source, pressure, band);
   mesh_.halo.update(force);
 }
 

@@ -112,7 +112,7 @@ SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) con
   return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.yx, K.yy, K.yz}), along(R, {K.zx, K.zy, K.zz})};
 }
 
-SymGradient Extension::borne_out(const CellField<SymGradient>& slope, Index c) const {
+SymGradient Extension::limited_slope(const CellField<SymGradient>& slope, Index c) const {
   SymGradient mean;
   int n = 0;
   for_neighbours(c, mesh_, [&](Index k, const Vec3& /*r*/) {
@@ -131,7 +131,7 @@ void Extension::set_slopes(CellField<SymGradient>& slope, const CellField<SymTen
   for (const Index c : ring(0)) slope[c] = least_squares(T, c);
   mesh_.halo.update(slope, ring_of_);
   slopes_.clear();
-  for (const Index c : ring(0)) slopes_.push_back(borne_out(slope, c));
+  for (const Index c : ring(0)) slopes_.push_back(limited_slope(slope, c));
   for (std::size_t i = 0; i < slopes_.size(); ++i) slope[ring(0)[i]] = slopes_[i];
   mesh_.halo.update(slope, ring_of_);
 }
@@ -165,8 +165,8 @@ void Extension::linear(CellField<SymTensor>& T, CellField<SymGradient>& slope) {
     if (ring_of_[c] == 0) T[c] = {};
 }
 
-void Extension::damp(CellField<SymTensor>& T, CellField<SymGradient>& slope, Real speed,
-                     Real recovery, Real dt) {
+void Extension::fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope,
+                                         Real speed, Real recovery, Real dt) {
   if (!(speed > 0)) return;
   mesh_.halo.update(T, ring_of_);
   for (const Index c : ring(0)) slope[c] = least_squares(T, c);

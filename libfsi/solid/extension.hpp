@@ -8,7 +8,7 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
-#include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 
 namespace fsi::solid {
 
@@ -43,8 +43,8 @@ class Extension {
   /// over the known vertex neighbours k, g the least squares: fourth differences [Jameson81],
   /// nothing of a linear T. T: of owned known cells; slope: as above; speed, recovery: of a wave
   /// of the cells' length, where viscosity does not matter and where it rules.
-  void damp(CellField<SymTensor>& T, CellField<SymGradient>& slope, Real speed, Real recovery,
-            Real dt);
+  void fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope, Real speed,
+                                Real recovery, Real dt);
   /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is
   /// touched. T: set on owned known cells before; where: not zero there, owned and halo.
   void constant(CellField<SymTensor>& T, const CellField<Real>& where);
@@ -69,7 +69,7 @@ class Extension {
   }
   void set_slopes(CellField<SymGradient>& slope, const CellField<SymTensor>& T);
   SymGradient least_squares(const CellField<SymTensor>& T, Index c) const;
-  SymGradient borne_out(const CellField<SymGradient>& slope, Index c) const;
+  SymGradient limited_slope(const CellField<SymGradient>& slope, Index c) const;
 
   const Mesh& mesh_;
   CellField<Real> zone_;     // 1: near, 2: inner, 3: and away from the boundary

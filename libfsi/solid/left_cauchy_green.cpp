@@ -30,8 +30,8 @@ void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
   mark(alpha);
 }
 
-void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
-  gradient(grad, Bt, carrier.stencil, mesh_, band_.cells());
+void LeftCauchyGreen::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
+  gradient(grad, Bt, snapshot.stencil, mesh_, band_.cells());
   mesh_.halo.update(grad);
   rate_.clear();
   for (const Index c : band_.core()) {
@@ -40,24 +40,24 @@ void LeftCauchyGreen::rate(const Carrier& carrier, CellField<SymGradient>& grad)
     for (const Index f : mesh_.cell_faces[c]) {
       if (f >= mesh_.n_internal)
         continue;  // nothing flows in but fluid; what leaves keeps its value
-      const Real phi = carrier.phi[f];
+      const Real phi = snapshot.phi[f];
       const Index up = phi >= 0 ? mesh_.owner[f] : mesh_.neighbour[f];
       const SymTensor face = Bt[up] + along(grad[up], mesh_.face_centre(f, up) - mesh_.C[up]);
       sum += (mesh_.owner[f] == c ? phi : -phi) * (face - Bt[c]);
     }
-    rate_.push_back(stretch(carrier.L[c], Bt[c]) - (1 / mesh_.V[c]) * sum);
+    rate_.push_back(stretch(snapshot.L[c], Bt[c]) - (1 / mesh_.V[c]) * sum);
   }
 }
 
-Strain LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                                  CellField<SymGradient>& grad) {
+Strain LeftCauchyGreen::transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot,
+                                  Real dt, CellField<SymGradient>& grad) {
   const std::vector<Index>& core = band_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(Bt[c]);
-  rate(carrier, grad);
+  rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i) Bt[core[i]] += dt * rate_[i];
   mesh_.halo.update(Bt);
-  rate(carrier, grad);
+  rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     Bt[core[i]] = 0.5 * (old_[i] + Bt[core[i]] + dt * rate_[i]);
   for (const Index c : band_.last_core())
@@ -66,12 +66,12 @@ Strain LeftCauchyGreen::transport(const CellField<Real>& alpha, const Carrier& c
   return {};
 }
 
-Real LeftCauchyGreen::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                            const CellField<Real>& alpha, const Band& band) const {
+Real LeftCauchyGreen::update_B(CellField<SymTensor>& B, CellField<Real>& lambda,
+                               const CellField<Real>& alpha, const Band& band) const {
   for (const Index c : band.core()) {
-    const bool strained = alpha[c] >= alpha_min;
-    B[c] = strained ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
-    lambda[c] = strained ? eigen(B[c]).value[2] : 0;
+    const bool strain_cells = alpha[c] >= alpha_min;
+    B[c] = strain_cells ? (1 / std::sqrt(alpha[c])) * Bt[c] : SymTensor{};
+    lambda[c] = strain_cells ? eigen(B[c]).value[2] : 0;
   }
   return 1;
 }

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "libfsi/field/band.hpp"
-#include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 #include "libfsi/solid/strain.hpp"
 
 namespace fsi::solid {
@@ -20,7 +20,7 @@ class LeftCauchyGreen {
   /// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
   static constexpr Real alpha_min = 0.1;
   /// Where in a step the solid stands when the momentum equation is solved: at its end.
-  static constexpr Real ahead = 1;
+  static constexpr Real time_offset = 1;
   /// The longest step in units of the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 0.8;
   /// Whether B is known around the solid as well.
@@ -34,11 +34,11 @@ class LeftCauchyGreen {
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
   void mark(const CellField<Real>& alpha) { band_.rebuild(alpha, alpha_min); }
   /// Owned cells on which `transport` reads L.
-  std::span<const Index> strained() const { return band_.core(); }
+  std::span<const Index> strain_cells() const { return band_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
   /// zero where alpha < alpha_min. grad: scratch. The strain is not watched: none is returned.
-  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+  Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
   /// Sets B of a cell; then `resume`, halo included.
@@ -47,15 +47,15 @@ class LeftCauchyGreen {
   }
   /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the core of
   /// the band. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
-  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             const Band& band) const;
+  Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
+                const Band& band) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;
 
   CellField<SymTensor> Bt;
 
  private:
-  void rate(const Carrier& carrier, CellField<SymGradient>& grad);
+  void rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
 
   const Mesh& mesh_;
   Band band_;

@@ -38,30 +38,30 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
-void LogConformation::set_L(const CellField<Real>& alpha, const Carrier& carrier) {
+void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   const auto u_at = [&](Index f) -> const Vec3* {
     const Index b = f - mesh_.n_internal;
-    return carrier.contact && carrier.contact->touched[b] ? &carrier.contact->u_b[b] : nullptr;
+    return snapshot.contact && snapshot.contact->touched[b] ? &snapshot.contact->u_b[b] : nullptr;
   };
   L_.clear();
   for (const Index c : known_.core()) {
-    if (carrier.strain) {
-      L_.push_back((*carrier.strain)[c]);
+    if (snapshot.strain) {
+      L_.push_back((*snapshot.strain)[c]);
     } else if (inner(c)) {
-      L_.push_back(with_flux(carrier, mesh_, c));
+      L_.push_back(flux_consistent_gradient(snapshot, mesh_, c));
     } else {
-      const Tensor L = one_sided_gradient(carrier.L, carrier.u, known, inner, u_at, mesh_, c);
-      L_.push_back(without_trace(L, alpha, mesh_, c));
+      const Tensor L = one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c);
+      L_.push_back(remove_normal_divergence(L, alpha, mesh_, c));
     }
   }
 }
 
-Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad) {
+Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
   const std::vector<Index>& cells = known_.core();
-  const FaceWeights& weights = carrier.weights;
-  gradient(grad, psi, carrier.stencil, mesh_, extension_.inside());
+  const FaceWeights& weights = snapshot.weights;
+  gradient(grad, psi, snapshot.stencil, mesh_, extension_.inside());
   for (const Index c : extension_.last_ring()) grad[c] = {};
   mesh_.halo.update(grad, extension_.near());
   Real fastest = 0;
@@ -74,13 +74,13 @@ Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad)
     for (const Index f : mesh_.cell_faces[c]) {
       if (f >= mesh_.n_internal) continue;
       const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-      const bool forward = carrier.phi[f] >= 0;
+      const bool forward = snapshot.phi[f] >= 0;
       const Index up = forward ? P : N, down = forward ? N : P;
       const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
       const Vec3 d = forward ? mesh_.d[f] : -mesh_.d[f];
       SymTensor face = psi[up] + (2 * share) * koren(psi[down] - psi[up], along(grad[up], d));
       if (weights.place[f] >= 0) face += along(grad[up], weights.skew[f]);
-      sum += (P == c ? carrier.phi[f] : -carrier.phi[f]) * (face - psi[c]);
+      sum += (P == c ? snapshot.phi[f] : -snapshot.phi[f]) * (face - psi[c]);
     }
     const SymTensor strain = log_rate(L_[i], psi[c]);
     if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
@@ -90,7 +90,7 @@ Real LogConformation::rate(const Carrier& carrier, CellField<SymGradient>& grad)
   return fastest;
 }
 
-Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad) {
+Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad) {
   const std::vector<Index>& core = known_.core();
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
@@ -98,24 +98,25 @@ Real LogConformation::advance(const Carrier& carrier, Real dt, CellField<SymGrad
   // The cells around follow the solid in this stage too: strained by the fluid's L they would feed
   // that back through the faces by which the flow enters the solid.
   extension_.linear(psi, grad);
-  const Real fastest = rate(carrier, grad);
+  const Real fastest = rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
-  if (carrier.strain) extension_.damp(psi, grad, carrier.wave_speed, carrier.recovery, dt);
+  if (snapshot.strain)
+    extension_.fourth_difference_filter(psi, grad, snapshot.wave_speed, snapshot.recovery, dt);
   extension_.linear(psi, grad);
   return fastest;
 }
 
-Strain LogConformation::transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
-                                  CellField<SymGradient>& grad) {
-  set_L(alpha, carrier);
+Strain LogConformation::transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot,
+                                  Real dt, CellField<SymGradient>& grad) {
+  set_L(alpha, snapshot);
   return in_parts(
-      dt, [&] { return rate(carrier, grad); },
-      [&](Real part) { return advance(carrier, part, grad); });
+      dt, [&] { return rate(snapshot, grad); },
+      [&](Real part) { return advance(snapshot, part, grad); });
 }
 
-Real LogConformation::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                            const CellField<Real>& alpha, const Band& band) {
+Real LogConformation::update_B(CellField<SymTensor>& B, CellField<Real>& lambda,
+                               const CellField<Real>& alpha, const Band& band) {
   // log B first
   for (const Index c : known_.core()) B[c] = psi[c];
   extension_.constant(B, band.listed());

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 #include "libfsi/solid/log_tensor.hpp"
 #include "libfsi/solid/strain.hpp"
 
@@ -24,7 +24,7 @@ class LogConformation {
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
   /// Where in a step the solid stands when the momentum equation is solved.
-  static constexpr Real ahead = 0.5;
+  static constexpr Real time_offset = 0.5;
   /// The longest step in units of the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 4;
   /// Whether B is known around the solid as well.
@@ -43,14 +43,14 @@ class LogConformation {
     extension_.mark(alpha, known_);
   }
   /// Owned cells on which `transport` reads L.
-  std::span<const Index> strained() const { return known_.cells(); }
+  std::span<const Index> strain_cells() const { return known_.cells(); }
   /// The band of these.
   const Band& known() const { return known_; }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
   /// zero far from the solid. grad: scratch. The strain returned is that of the inner cells: what
   /// is thinner than the mesh sets no step.
-  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+  Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
   /// Sets B, positive definite, of a cell; then `resume`.
@@ -59,8 +59,8 @@ class LogConformation {
   /// alpha_min. Around the known cells log B goes on as a constant: continued linearly, the stress
   /// of the surface would answer to a strain of a cell by more than its stiffness tells. B: zero in
   /// other cells. Returns the smallest eigenvalue of B among cells with solid, at most 1.
-  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             const Band& band);
+  Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
+                const Band& band);
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;
 
@@ -70,11 +70,11 @@ class LogConformation {
   /// Sets L_: carrier.strain, or the velocity gradient without the divergence of the cell
   /// velocities (solenoidal.hpp), in the solid's outermost cells that of its own side
   /// (one_sided.hpp).
-  void set_L(const CellField<Real>& alpha, const Carrier& carrier);
+  void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
-  Real rate(const Carrier& carrier, CellField<SymGradient>& grad);
+  Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
-  Real advance(const Carrier& carrier, Real dt, CellField<SymGradient>& grad);
+  Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
 

@@ -36,7 +36,7 @@ void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
 }
 
 void ReferenceMap::set(Index /*c*/, const SymTensor& /*B*/, Real /*alpha*/) {
-  throw Error(Kind::input, "reference_map: B alone does not tell a map; give the map itself");
+  throw Error(ErrorKind::input, "reference_map: B alone does not tell a map; give the map itself");
 }
 
 void ReferenceMap::resume(const CellField<Real>& alpha, CellField<SymGradient>& /*grad*/) {
@@ -77,31 +77,31 @@ void ReferenceMap::extend() {
   mesh_.halo.update(slope_);
 }
 
-Vec3 ReferenceMap::face_value(Index f, Index c, const Carrier& carrier, Real dt) const {
+Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const {
   // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
   //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
   // with u_f linear between the cells and along the skewness, at boundaries from the cell.
   const auto back = [&](Index up, const Vec3& u) { return (dt / 2) * (u + dot(slope_[up], u)); };
   if (f >= mesh_.n_internal) {
     const Vec3 r = mesh_.Cf[f] - mesh_.C[c];
-    return d[c] + dot(slope_[c], r) - back(c, carrier.u[c] + dot(carrier.L[c], r));
+    return d[c] + dot(slope_[c], r) - back(c, snapshot.u[c] + dot(snapshot.L[c], r));
   }
-  const FaceWeights& weights = carrier.weights;
+  const FaceWeights& weights = snapshot.weights;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const bool forward = carrier.phi[f] >= 0;
+  const bool forward = snapshot.phi[f] >= 0;
   const Index up = forward ? P : N, down = forward ? N : P;
   const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
   Vec3 face = d[up] + (2 * share) * koren(d[down] - d[up], dot(slope_[up], way));
-  Vec3 u = (1 - share) * carrier.u[up] + share * carrier.u[down];
+  Vec3 u = (1 - share) * snapshot.u[up] + share * snapshot.u[down];
   if (weights.place[f] >= 0) {
     face += dot(slope_[up], weights.skew[f]);
-    u += dot(carrier.L[c], weights.skew[f]);
+    u += dot(snapshot.L[c], weights.skew[f]);
   }
   return face - back(up, u);
 }
 
-void ReferenceMap::advance(const Carrier& carrier, Real dt) {
+void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
     // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
@@ -111,36 +111,36 @@ void ReferenceMap::advance(const Carrier& carrier, Real dt) {
     Vec3 sum, off;
     for (const Index f : mesh_.cell_faces[c]) {
       const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
-      const Real phi = outward ? carrier.phi[f] : -carrier.phi[f];
+      const Real phi = outward ? snapshot.phi[f] : -snapshot.phi[f];
       const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
-      const Real linear = dot(dot(carrier.L[c], r), mesh_.Sf[f]);
-      sum += phi * (r + face_value(f, c, carrier, dt) - d[c]);
+      const Real linear = dot(dot(snapshot.L[c], r), mesh_.Sf[f]);
+      sum += phi * (r + face_value(f, c, snapshot, dt) - d[c]);
       off += (outward ? linear : -linear) * r;
     }
-    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(carrier.L[c], off));
+    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(snapshot.L[c], off));
     new_.push_back(d[c] - (dt / mesh_.V[c]) * sum);
   }
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
   if (!all_of_ranks(!folded()))
-    throw Error(Kind::numerics, "the reference map folds: det grad xi <= 0");
+    throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }
 
-Strain ReferenceMap::transport(const CellField<Real>& /*alpha*/, const Carrier& carrier, Real dt,
-                               CellField<SymGradient>& /*grad*/) {
+Strain ReferenceMap::transport(const CellField<Real>& /*alpha*/, const FlowSnapshot& snapshot,
+                               Real dt, CellField<SymGradient>& /*grad*/) {
   Real fastest = 0;
-  for (const Index c : known_.core()) fastest = std::max(fastest, largest_rate(carrier.L[c]));
+  for (const Index c : known_.core()) fastest = std::max(fastest, largest_rate(snapshot.L[c]));
   return in_parts(
-      dt, [&] { return fastest; }, [&](Real part) { return advance(carrier, part), fastest; });
+      dt, [&] { return fastest; }, [&](Real part) { return advance(snapshot, part), fastest; });
 }
 
 bool ReferenceMap::folded() const {
   return std::ranges::any_of(known_.core(), [&](Index c) { return !(volume_ratio(c) > 0); });
 }
 
-Real ReferenceMap::weigh(CellField<SymTensor>& B, CellField<Real>& lambda,
-                         const CellField<Real>& alpha, const Band& band) const {
+Real ReferenceMap::update_B(CellField<SymTensor>& B, CellField<Real>& lambda,
+                            const CellField<Real>& alpha, const Band& band) const {
   Real least = 1;
   for (const Index c : band.cells()) {
     B[c] = this->B(c, alpha[c]);

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "libfsi/solid/carrier.hpp"
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 #include "libfsi/solid/map_extension.hpp"
 #include "libfsi/solid/strain.hpp"
 
@@ -26,7 +26,7 @@ class ReferenceMap {
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
   /// Where in a step the solid stands when the momentum equation is solved.
-  static constexpr Real ahead = 0.5;
+  static constexpr Real time_offset = 0.5;
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;
   /// The longest step in units of the time in which the elastic wave passes a cell.
@@ -41,12 +41,12 @@ class ReferenceMap {
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
   void mark(const CellField<Real>& alpha);
   /// Owned cells on which `transport` reads L.
-  std::span<const Index> strained() const { return known_.core(); }
+  std::span<const Index> strain_cells() const { return known_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return d is set on owned cells and halo, zero
   /// far from the solid. grad: not used. Errors: Error{numerics} where the map folds, det grad xi
   /// <= 0.
-  Strain transport(const CellField<Real>& alpha, const Carrier& carrier, Real dt,
+  Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
   /// B alone does not tell a map. Errors: always Error{input}.
@@ -56,8 +56,8 @@ class ReferenceMap {
 
   /// B and lambda, its largest eigenvalue, on the cells of the band. Returns the smallest
   /// eigenvalue of B among those with solid, at most 1.
-  Real weigh(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
-             const Band& band) const;
+  Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
+                const Band& band) const;
   /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
   SymTensor B(Index c, Real alpha) const;
   /// det grad xi of a cell: 1 but for the error of volume.
@@ -69,9 +69,9 @@ class ReferenceMap {
  private:
   Tensor gradient_of_map(Index c) const;
   /// The upwind value of d at face f half a step back along the particle's path.
-  Vec3 face_value(Index f, Index c, const Carrier& carrier, Real dt) const;
+  Vec3 face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
-  void advance(const Carrier& carrier, Real dt);
+  void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;
 

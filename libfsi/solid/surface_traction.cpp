@@ -37,7 +37,7 @@ SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, R
       G_(G),
       mu_(mu),
       mu_least_(std::max(mu.solid, mu.fluid / 4)),
-      level_(mesh, weights),
+      jump_force_(mesh, weights),
       touch_(mesh),
       L_(mesh),
       L_in_(mesh),
@@ -51,7 +51,7 @@ bool SurfaceTraction::uncut(Real alpha) const {
 }
 
 void SurfaceTraction::clear(const Band& band) {
-  level_.clear();
+  jump_force_.clear();
   const auto reset = [&](Index c) { kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0; };
   for (const Index c : last_cells_) reset(c), own_[c] = {};
   for (const Index f : last_faces_) {
@@ -177,7 +177,7 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   return {traction + transposed + rest, s};
 }
 
-void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balance,
+void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
                                  const Surface& surface, const FaceWeights& weights,
                                  PressureStencil& pressure, const Band& band) {
   const CellField<Real>& alpha = surface.alpha;
@@ -199,8 +199,8 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& balanc
     force[P] += (1 / mesh_.V[P]) * flux_of(P);
     force[N] -= (1 / mesh_.V[N]) * flux_of(N);
     const Real jump = s * (alpha[N] - alpha[P]);
-    level_.add(f, jump, pressure.cells);
-    balance[f] += jump;
+    jump_force_.add(f, jump, pressure.cells);
+    rhie_chow_source[f] += jump;
   }
 }
 
@@ -231,7 +231,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
   }
 }
 
-void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
+void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
                             const Surface& surface, const FaceWeights& weights,
                             PressureStencil& pressure, const Band& band) {
   clear(band);
@@ -241,14 +241,14 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& balance,
   mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
   take_own_strain(surface, band);
   mesh_.halo.update(L_in_);
-  add_excess(force, balance, surface, weights, pressure, band);
+  add_excess(force, rhie_chow_source, surface, weights, pressure, band);
   add_transposed(force, surface, weights, band);
-  level_.apply(force, balance, pressure, band);
+  jump_force_.apply(force, rhie_chow_source, pressure, band);
   mesh_.halo.update(force);
 }
 
-void SurfaceTraction::stiffen(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
-                              const Band& band) const {
+void SurfaceTraction::add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
+                                        const Band& band) const {
   if (mu_.solid > mu_.fluid) return;
   for (const Index f : band.faces()) {
     Real touched = touch_[mesh_.owner[f]];

@@ -7,7 +7,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
-#include "libfsi/solid/level.hpp"
+#include "libfsi/solid/balanced_jump_force.hpp"
 
 namespace fsi::solid {
 
@@ -43,7 +43,7 @@ struct Viscosities {
 ///   (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
 ///     + alpha_f ((mu_s - mu_f) 2 D^0 - s I) + alpha_c s I,   e = (2 D . m)_t, b = (B . m)_t
 ///
-/// and sum_f g_cf s (alpha_n - alpha_c): a jump of the pressure bears s (neo_hookean.hpp). D is
+/// and sum_f g_cf s (alpha_n - alpha_c): a jump of the pressure bears s (elastic_force.hpp). D is
 /// that of the cells' least-squares fit of L . r + a (min(0, h + m . r) - min(0, h)); but in e . m
 /// the difference along d is that of the face. mu_s counts as mu_f / 4 at least, less the
 /// difference times D of the solid's own side: nothing would tie the fluid to a solid without
@@ -59,7 +59,7 @@ class SurfaceTraction {
 
   /// Collective. Adds to the force, and the jump of s to the face flux's balance. band: that of the
   /// elastic stress, force and balance cleared there.
-  void apply(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+  void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
              const FaceWeights& weights, PressureStencil& pressure, const Band& band);
 
   /// Viscosities of more than this many times the fluid's are left to the mean of the cells: a
@@ -74,7 +74,8 @@ class SurfaceTraction {
   /// kappa_f has alpha_f, the elastic stress alpha_f mu_h / mu_s. The second is on the change of u
   /// in a step, an error of dt in the stress of these faces alone: of second order in u if dt ~ h.
   /// With c = 0.2 an inclusion of mu_s / mu_f = 1e-4 in Stokes flow grows, with 0.3 it does not.
-  void stiffen(FaceField<Real>& kappa, const FaceField<Real>& alpha_f, const Band& band) const;
+  void add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
+                         const Band& band) const;
 
  private:
   void clear(const Band& band);
@@ -83,7 +84,7 @@ class SurfaceTraction {
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
-  void add_excess(CellField<Vec3>& force, FaceField<Real>& balance, const Surface& surface,
+  void add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
                   const FaceWeights& weights, PressureStencil& pressure, const Band& band);
   void add_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
                       const Band& band) const;
@@ -104,9 +105,9 @@ class SurfaceTraction {
   const Mesh& mesh_;
   Real G_;
   Viscosities mu_;
-  Real mu_least_;               // that counts for the solid's in series
-  Level level_;                 // s
-  CellField<Real> touch_;       // 1: has a face at the surface; 2: and is uncut, more viscous
+  Real mu_least_;                 // that counts for the solid's in series
+  BalancedJumpForce jump_force_;  // s
+  CellField<Real> touch_;         // 1: has a face at the surface; 2: and is uncut, more viscous
   CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
   CellField<Real> fitted_;      // 1: has a fit
   CellField<Vec3> kink_;        // a

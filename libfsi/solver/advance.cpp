@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -23,7 +24,7 @@ constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the press
 
 }  // namespace
 
-Solver::Objection Solver::objection(Real dt) const {
+Solver::Rejection Solver::rejection_reason(Real dt) const {
   if (dt > advective_dt(courant_max))
     return {"the flow became too fast for the step", Term::convection};
   if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
@@ -43,6 +44,16 @@ Solver::Objection Solver::objection(Real dt) const {
   return {};
 }
 
+void Solver::check() {
+  const Profile::Call call(profile_, calls_.check);
+  Real sum = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
+  if (body_)
+    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
+  if (!all_of_ranks(std::isfinite(sum)))
+    throw Error(ErrorKind::numerics, "velocity, pressure or strain is not finite");
+}
+
 void Solver::hold_backup() {
   io::Snapshot state;
   list(state);
@@ -60,11 +71,11 @@ bool Solver::stuck(Real dt) {
 Solver::Calls::Calls(Profile& profile)
     : update_gradients(profile.add("update_gradients", "momentum")),
       advance_interface(profile.add("advance_interface", "vof")),
-      carry_pressure(profile.add("carry_pressure", "solid")),
+      advect_pressure_jump(profile.add("carry_pressure", "solid")),
       transport_elastic(profile.add("transport_elastic", "solid")),
       mix_viscosity(profile.add("mix_viscosity", "solid")),
       set_elastic_force(profile.add("set_elastic_force", "solid")),
-      stiffen(profile.add("stiffen", "solid")),
+      add_semi_implicit(profile.add("stiffen", "solid")),
       drive(profile.add("drive", "momentum")),
       predict_momentum(profile.add("predict_momentum", "momentum")),
       predict_flux(profile.add("predict_flux", "flux")),
@@ -75,7 +86,7 @@ Solver::Calls::Calls(Profile& profile)
 void Solver::synchronise() {
   if (!body_ || body_->t == state_.t) return;
   advance_interface(state_.t);
-  carry_pressure();
+  advect_pressure_jump();
   update_gradients();
   transport_elastic();
 }
@@ -91,17 +102,17 @@ Real Solver::advance(Real dt) {
   constexpr int halvings = 8;
   std::string reason;
   for (int i = 0; i <= halvings; ++i, dt /= 2) {
-    Objection against;
+    Rejection against;
     try {
       step(dt);
-      against = objection(dt);
+      against = rejection_reason(dt);
       if (against.reason.empty() && stuck(dt)) {
         reason = "a hundred steps in a row of less than a millionth of the largest; " +
                  diagnosis(holder(dt), dt);
         break;
       }
     } catch (const Error& error) {
-      if (error.kind() != Kind::numerics) throw;
+      if (error.kind() != ErrorKind::numerics) throw;
       against = {error.what(), Term::solve};
     }
     if (against.reason.empty()) {

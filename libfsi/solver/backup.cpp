@@ -8,9 +8,9 @@ namespace fsi {
 
 Backup::Backup(const io::Snapshot& what, const Mesh& mesh) : what_(what) {
   for (const io::Snapshot::Values& f : what_.fields()) {
-    const Index items = f.on == On::cells   ? mesh.n_cells
-                        : f.on == On::faces ? mesh.n_faces
-                                            : mesh.n_boundary();
+    const Index items = f.on == Location::cells   ? mesh.n_cells
+                        : f.on == Location::faces ? mesh.n_faces
+                                                  : mesh.n_boundary();
     fields_.emplace_back(static_cast<std::size_t>(items) * static_cast<std::size_t>(f.width));
   }
   for (const auto& item : what_.scalars()) {

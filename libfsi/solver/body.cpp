@@ -33,8 +33,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       advect_scratch(mesh),
       band(mesh),
       kinematics(make(mesh, kind)),
-      law(mesh, weights, G),
-      stiffness(mesh, weights),
+      elastic_force(mesh, weights, G),
+      semi_implicit_elasticity(mesh, weights),
       grad(mesh),
       filled(vof::fill(alpha, mesh, shape, mirrors)),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
@@ -42,7 +42,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   specks.resize(static_cast<std::size_t>(mesh.n_owned));
   if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh))
-    sided.emplace(mesh), reach.emplace(mesh);
+    interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
   alpha_mid.assign(alpha);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
@@ -64,13 +64,13 @@ void Body::set_map(const std::function<Vec3(const Vec3&)>& xi_0) {
   resume();
 }
 
-void Body::weigh() {
+void Body::update_B() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
         for (const Index c : last_cells) B[c] = {}, lambda[c] = 0;
         last_cells = band.cells();
-        eigenvalue_min = k.weigh(B, lambda, alpha, band);
+        eigenvalue_min = k.update_B(B, lambda, alpha, band);
       },
       kinematics);
   if (extended()) {
@@ -122,7 +122,7 @@ bool Body::count_out() {
 
 void Body::list(io::Snapshot& snapshot) {
   snapshot.add("alpha", alpha);
-  if (strained_by_flux()) snapshot.add("alpha_mid", alpha_mid);
+  if (strain_by_flux()) snapshot.add("alpha_mid", alpha_mid);
   snapshot.add("solid_t", &t);
   snapshot.add("solid_volume_out", &volume_out);
   snapshot.add("solid_gone", &gone);
@@ -137,8 +137,8 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
-  std::visit([&](auto& k) { k.resume(alpha_strained(), grad); }, kinematics);
-  weigh();
+  std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
+  update_B();
 }
 
 }  // namespace fsi

@@ -8,16 +8,16 @@
 #include "libfsi/field/band.hpp"
 #include "libfsi/io/checkpoint.hpp"
 #include "libfsi/shapes/shapes.hpp"
+#include "libfsi/solid/elastic_force.hpp"
+#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/left_cauchy_green.hpp"
 #include "libfsi/solid/log_conformation.hpp"
-#include "libfsi/solid/neo_hookean.hpp"
 #include "libfsi/solid/reference_map.hpp"
-#include "libfsi/solid/sided_gradient.hpp"
-#include "libfsi/solid/stiffness.hpp"
+#include "libfsi/solid/semi_implicit.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/fill.hpp"
-#include "libfsi/vof/reach.hpp"
+#include "libfsi/vof/kink_profile.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi {
@@ -44,7 +44,7 @@ struct Body {
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
   void list(io::Snapshot& snapshot);
   /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
-  void weigh();
+  void update_B();
   /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
   /// out specks, cells with less than a hundredth of solid in themselves and all around them, and
   /// the rest where that is less than a thousandth of the body; both count as having left. Returns
@@ -57,20 +57,20 @@ struct Body {
   bool semi_implicit() const { return extended(); }
   /// Whether the jump of the pressure goes on with the surface. With a reference map it does not:
   /// its own error in dt takes off a part of what that mends (doc/verification/torus.md).
-  bool carries_pressure() const {
+  bool advects_pressure_jump() const {
     return std::holds_alternative<solid::LogConformation>(kinematics);
   }
   /// Whether the face flux takes part in the solid's strain.
-  bool strained_by_flux() const {
-    return !sided && std::holds_alternative<solid::LogConformation>(kinematics);
+  bool strain_by_flux() const {
+    return !interface_gradient && std::holds_alternative<solid::LogConformation>(kinematics);
   }
   /// The cells that `sided` works on; with `sided` only.
   const Band& strained_cells() const {
     return std::get<solid::LogConformation>(kinematics).known();
   }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
-  Real ahead() const {
-    return std::visit([](const auto& k) { return k.ahead; }, kinematics);
+  Real time_offset() const {
+    return std::visit([](const auto& k) { return k.time_offset; }, kinematics);
   }
   /// The longest step in units of the time in which the elastic wave passes a cell.
   Real elastic_number() const {
@@ -79,7 +79,7 @@ struct Body {
   /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
   /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches
   /// in the second half has the fluid's, and its L an error of (Co / 2) times the jump.
-  const CellField<Real>& alpha_strained() const { return strained_by_flux() ? alpha_mid : alpha; }
+  const CellField<Real>& strain_fraction() const { return strain_by_flux() ? alpha_mid : alpha; }
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
@@ -106,18 +106,19 @@ struct Body {
   vof::AdvectScratch advect_scratch;
   Band band;  ///< of the cells that carry stress
   Kinematics kinematics;
-  solid::NeoHookean law;
-  solid::Stiffness stiffness;
-  std::optional<solid::SidedGradient> sided;  ///< where the velocity gradient needs it
-  std::optional<vof::Reach> reach;            ///< of cut cells, beside it
-  CellField<solid::SymGradient> grad;         ///< scratch of both
-  vof::Filled filled;                         ///< volume and its error at the start
-  std::vector<Index> last_cells;              ///< where B was set
-  vof::AdvectReport advected;                 ///< of the last step
-  std::vector<char> mirror;                   ///< [n_boundary] 1 on planes of symmetry
-  std::vector<char> specks;                   ///< [n_owned] scratch
-  Real volume_out = 0;                        ///< what left the mesh or was taken out after it
-  std::int64_t gone = 0;                      ///< 1: nothing is left
+  solid::ElasticForce elastic_force;
+  solid::SemiImplicitElasticity semi_implicit_elasticity;
+  std::optional<solid::InterfaceGradient>
+      interface_gradient;                        ///< where the velocity gradient needs it
+  std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, beside it
+  CellField<solid::SymGradient> grad;            ///< scratch of both
+  vof::Filled filled;                            ///< volume and its error at the start
+  std::vector<Index> last_cells;                 ///< where B was set
+  vof::AdvectReport advected;                    ///< of the last step
+  std::vector<char> mirror;                      ///< [n_boundary] 1 on planes of symmetry
+  std::vector<char> specks;                      ///< [n_owned] scratch
+  Real volume_out = 0;                           ///< what left the mesh or was taken out after it
+  std::int64_t gone = 0;                         ///< 1: nothing is left
 };
 
 }  // namespace fsi

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "libfsi/core/eigen.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/quality.hpp"
-#include "libfsi/solver/mesh_figures.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {

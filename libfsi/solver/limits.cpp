@@ -24,7 +24,7 @@ Real Solver::carried_dt() const {
       rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   // body.t + solid_dt = t + ahead dt
-  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->ahead()
+  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->time_offset()
                   : std::numeric_limits<Real>::max();
 }
 
@@ -55,7 +55,7 @@ Real Solver::strain_dt(Real strain) const {
 Real Solver::opening_pressure(const std::string& patch) const {
   for (const flow::Openings::One& opening : openings_.all())
     if (opening.patch.name == patch) return opening.pressure;
-  throw Error(Kind::input, "patch \"" + patch + "\" is no opening");
+  throw Error(ErrorKind::input, "patch \"" + patch + "\" is no opening");
 }
 
 const CellField<Tensor>& Solver::velocity_gradient() {

@@ -26,7 +26,7 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("convection", last);
   snapshot.add("convection_before", before);
   snapshot.add("viscous_rest", rest);
-  if (auto& past = momentum_.past()) snapshot.add("momentum_past", past->u, "u");
+  if (auto& old = momentum_.old()) snapshot.add("momentum_past", old->u, "u");
   snapshot.add("momentum_dt_old", &momentum_.dt_old);
   snapshot.add("momentum_dt_before", &momentum_.dt_before);
   snapshot.add("momentum_steps", &momentum_.steps_taken);

@@ -5,7 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/solid/carried_pressure.hpp"
+#include "libfsi/solid/pressure_jump.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 #include "libfsi/vof/motion.hpp"
 
@@ -45,7 +45,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       divergence_(mesh),
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
-      balance_(mesh),
+      rhie_chow_source_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
@@ -74,7 +74,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
                               .grad_p = grad_p_,
                               .grad_p_f = projection_.face_gradient(),
                               .p_b = p_b_,
-                              .balance = balance_,
+                              .rhie_chow_source = rhie_chow_source_,
                               .mu = mu_,
                               .theta = momentum_.theta_taken(),
                               .kappa = kappa_,
@@ -105,11 +105,11 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
                                                    std::to_string(-body_->filled.clearance) +
                                                    ": move it or make it smaller");
   if (mu_varies()) {
-    momentum_.expect(std::max(physics_.mu_s, physics_.mu_f));
+    momentum_.bound_explicit_viscosity(std::max(physics_.mu_s, physics_.mu_f));
     if (body_->extended() && physics_.mu_s <= solid::SurfaceTraction::ratio_max * physics_.mu_f)
       two_viscosities_.emplace(mesh_, weights_, physics_.G,
                                solid::Viscosities{physics_.mu_s, physics_.mu_f});
-    if (two_viscosities_) momentum_.hold_past();
+    if (two_viscosities_) momentum_.hold_old();
   }
   mix_viscosity();
   hold_backup();
@@ -117,18 +117,18 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
 
 void Solver::step(Real dt) {
   if (body_) {
-    advance_interface(state_.t + body_->ahead() * dt);  // d alpha/dt + div(alpha u) = 0
-                                                        //            [Matsumiya25] (5)
-    carry_pressure();  // p^n's jump goes with it                     carried_pressure.hpp
+    advance_interface(state_.t + body_->time_offset() * dt);  // d alpha/dt + div(alpha u) = 0
+                                                              //            [Matsumiya25] (5)
+    advect_pressure_jump();  // p^n's jump goes with it                     pressure_jump.hpp
   }
   update_gradients();  // grad p^n, L^n
   if (body_) {
-    transport_elastic();  // d psi/dt + div(u psi) = ...              [Fattal04] (19)
-                          // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
-                          // or d xi/dt + u . grad xi = 0             [Kamrin12]
-    mix_viscosity();      // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
-    set_elastic_force();  // f = div(alpha G dev B)                   [Matsumiya25] (11)
-    stiffen(dt);          // + div(kappa grad (u* - u^n)) + ...       stiffness.hpp
+    transport_elastic();    // d psi/dt + div(u psi) = ...              [Fattal04] (19)
+                            // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
+                            // or d xi/dt + u . grad xi = 0             [Kamrin12]
+    mix_viscosity();        // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
+    set_elastic_force();    // f = div(alpha G dev B)                   [Matsumiya25] (11)
+    add_semi_implicit(dt);  // + div(kappa grad (u* - u^n)) + ...       semi_implicit.hpp
   }
   drive(state_.t + dt / 2);  // f += f(x, t)
   predict_momentum(dt);      // du/dt + div(u u) = ...                  [Matsumiya25] (12)
@@ -156,19 +156,19 @@ void Solver::set_gradient(BoundaryField<Vec3>& u_b, Real t) {
   openings_.set_velocity(u_b, state_.u, L_f_, weights_);
 }
 
-void Solver::take_sided_gradient() {
-  sided_L_f_.clear();
-  if (!body_ || !body_->sided) return;
-  const Band& strained = body_->strained_cells();
-  const CellField<Real>& listed = strained.listed();
-  for (const Index f : strained.faces()) {
+void Solver::take_interface_gradient() {
+  interface_L_f_.clear();
+  if (!body_ || !body_->interface_gradient) return;
+  const Band& strain_cells = body_->strained_cells();
+  const CellField<Real>& listed = strain_cells.listed();
+  for (const Index f : strain_cells.faces()) {
     const Index i = weights_.place[f], P = mesh_.owner[f];
     if (i < 0) continue;
     const Index N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
     if (listed[P] == 0 || listed[N] == 0) continue;
     const Real lambda = f < mesh_.n_internal ? weights_.lambda[f] : 0;
     L_f_[i] = (1 - lambda) * L_[P] + lambda * L_[N];
-    sided_L_f_.emplace_back(i, L_f_[i]);
+    interface_L_f_.emplace_back(i, L_f_[i]);
   }
 }
 
@@ -194,11 +194,11 @@ void Solver::advance_interface(Real t) {
     body_->alpha_mid[c] = (body_->alpha_mid[c] + body_->alpha[c]) / 2;
 }
 
-void Solver::carry_pressure() {
-  const Profile::Call call(profile_, calls_.carry_pressure);
-  if (!body_->carries_pressure()) return;
-  solid::carry_pressure(state_.p, body_->alpha_mid, body_->alpha, body_->B, physics_.G, mesh_,
-                        body_->band.cells());
+void Solver::advect_pressure_jump() {
+  const Profile::Call call(profile_, calls_.advect_pressure_jump);
+  if (!body_->advects_pressure_jump()) return;
+  solid::advect_pressure_jump(state_.p, body_->alpha_mid, body_->alpha, body_->B, physics_.G, mesh_,
+                              body_->band.cells());
   mesh_.halo.update(state_.p);
 }
 
@@ -208,48 +208,52 @@ void Solver::set_L(const CellField<Vec3>& u, std::span<const Index> cells) {
 }
 
 void Solver::set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells) {
-  const solid::Carrier carrier{state_.phi, state_.u, L_, projection_.stencil().cells, weights_};
+  const solid::FlowSnapshot snapshot{state_.phi, state_.u, L_, projection_.stencil().cells,
+                                     weights_};
   u.assign(state_.u);
   for (const Index c : cells)
     if (body_->alpha_mid[c] >= solid::alpha_known)
-      u[c] = solid::velocity_of_fluxes(carrier, body_->alpha_mid, mesh_, c);
+      u[c] = solid::velocity_of_fluxes(snapshot, body_->alpha_mid, mesh_, c);
   mesh_.halo.update(u);
 }
 
 void Solver::transport_elastic() {
   const Profile::Call call(profile_, calls_.transport_elastic);
-  const bool sided = body_->sided.has_value(), by_flux = body_->strained_by_flux();
+  const bool interface_gradient = body_->interface_gradient.has_value(),
+             by_flux = body_->strain_by_flux();
   const CellField<Vec3>& u = by_flux ? grad_q_ : state_.u;  // grad_q: scratch here
   const solid::Contact contact{u_b_, body_->touched};
-  const solid::Carrier carrier{state_.phi,
-                               u,
-                               L_,
-                               projection_.stencil().cells,
-                               weights_,
-                               sided ? &body_->sided->strain() : nullptr,
-                               &contact,
-                               std::sqrt(physics_.G / physics_.rho),
-                               physics_.G / physics_.mu_s};
+  const solid::FlowSnapshot snapshot{
+      state_.phi,
+      u,
+      L_,
+      projection_.stencil().cells,
+      weights_,
+      interface_gradient ? &body_->interface_gradient->strain() : nullptr,
+      &contact,
+      std::sqrt(physics_.G / physics_.rho),
+      physics_.G / physics_.mu_s};
   std::visit(
       [&](auto& k) {
-        k.mark(body_->alpha_strained());
-        if (by_flux) body_->set_touched(k.strained(), momentum_.boundary().open);
-        if (by_flux) set_velocity_of_fluxes(grad_q_, k.strained());
-        if (by_flux || !needs_L()) set_L(u, k.strained());
-        if (sided) {
-          body_->reach->set(body_->interface, weights_);
-          body_->sided->apply(
+        k.mark(body_->strain_fraction());
+        if (by_flux) body_->set_touched(k.strain_cells(), momentum_.boundary().open);
+        if (by_flux) set_velocity_of_fluxes(grad_q_, k.strain_cells());
+        if (by_flux || !needs_L()) set_L(u, k.strain_cells());
+        if (interface_gradient) {
+          body_->kink_profile->set(body_->interface, weights_);
+          body_->interface_gradient->apply(
               L_, state_.u, u_b_,
-              {body_->alpha, body_->reach->normal, body_->reach->beyond, body_->reach->behind},
-              k.strained());
-          body_->sided->set_strain(L_, state_.u, u_b_, body_->alpha, k.strained());
+              {body_->alpha, body_->kink_profile->normal, body_->kink_profile->solid_side,
+               body_->kink_profile->fluid_side},
+              k.strain_cells());
+          body_->interface_gradient->set_strain(L_, state_.u, u_b_, body_->alpha, k.strain_cells());
         }
-        body_->strain = k.transport(body_->alpha_strained(), carrier, solid_dt_, body_->grad);
-        if (by_flux && needs_L()) set_L(state_.u, k.strained());
+        body_->strain = k.transport(body_->strain_fraction(), snapshot, solid_dt_, body_->grad);
+        if (by_flux && needs_L()) set_L(state_.u, k.strain_cells());
       },
       body_->kinematics);
-  body_->weigh();
-  take_sided_gradient();
+  body_->update_B();
+  take_interface_gradient();
 }
 
 void Solver::mix_viscosity() {
@@ -258,8 +262,8 @@ void Solver::mix_viscosity() {
   flow::mixture_viscosity(mu_, body_->alpha, physics_.mu_f, physics_.mu_s, weights_, mesh_);
 }
 
-void Solver::stiffen(Real dt) {
-  const Profile::Call call(profile_, calls_.stiffen);
+void Solver::add_semi_implicit(Real dt) {
+  const Profile::Call call(profile_, calls_.add_semi_implicit);
   if (!body_->semi_implicit()) return;
   if (!needs_L()) {
     gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body_->band.cells());
@@ -267,45 +271,47 @@ void Solver::stiffen(Real dt) {
   }
   // A map is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body_->kinematics);
-  const solid::Stiffening solid{body_->lambda,
-                                body_->alpha_f,
-                                state_.u,
-                                L_,
-                                body_->alpha,
-                                physics_.G,
-                                physics_.rho,
-                                map ? 0 : physics_.mu_s,
-                                dt,
-                                !map,
-                                body_->sided.has_value(),
-                                two_viscosities_ ? &two_viscosities_->normal : nullptr};
-  body_->stiffness.apply(kappa_, force_, solid, weights_, body_->band);
+  const solid::ElasticTerms solid{body_->lambda,
+                                  body_->alpha_f,
+                                  state_.u,
+                                  L_,
+                                  body_->alpha,
+                                  physics_.G,
+                                  physics_.rho,
+                                  map ? 0 : physics_.mu_s,
+                                  dt,
+                                  !map,
+                                  body_->interface_gradient.has_value(),
+                                  two_viscosities_ ? &two_viscosities_->normal : nullptr};
+  body_->semi_implicit_elasticity.apply(kappa_, force_, solid, weights_, body_->band);
   if (!two_viscosities_) return;
   two_viscosities_->stiff.assign(kappa_);
-  two_viscosities_->traction.stiffen(two_viscosities_->stiff, body_->alpha_f, body_->band);
+  two_viscosities_->traction.add_semi_implicit(two_viscosities_->stiff, body_->alpha_f,
+                                               body_->band);
 }
 
 void Solver::set_elastic_force() {
   const Profile::Call call(profile_, calls_.set_elastic_force);
   force_.fill({});
-  balance_.fill(0);
-  const solid::Strained strained{body_->B, body_->alpha,
-                                 body_->extended() ? &body_->alpha_f : nullptr, &body_->normal_f,
-                                 &body_->mirror};
-  body_->law.apply(force_, balance_, strained, weights_, projection_.stencil(), body_->band,
-                   body_->grad);
+  rhie_chow_source_.fill(0);
+  const solid::ElasticState strain_cells{body_->B, body_->alpha,
+                                         body_->extended() ? &body_->alpha_f : nullptr,
+                                         &body_->normal_f, &body_->mirror};
+  body_->elastic_force.apply(force_, rhie_chow_source_, strain_cells, weights_,
+                             projection_.stencil(), body_->band, body_->grad);
   if (two_viscosities_) {
     vof::cell_plane(two_viscosities_->normal, two_viscosities_->height, body_->alpha,
                     body_->interface, mesh_, body_->band.cells());
     mesh_.halo.update(two_viscosities_->normal, body_->band.listed());
     two_viscosities_->traction.apply(
-        force_, balance_,
+        force_, rhie_chow_source_,
         {state_.u, L_, L_f_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
          two_viscosities_->normal, two_viscosities_->height, mu_},
         weights_, projection_.stencil(), body_->band);
   }
   if (body_force_)
-    body_force_->apply(force_, balance_, body_->alpha_f, projection_.stencil(), body_->band);
+    body_force_->apply(force_, rhie_chow_source_, body_->alpha_f, projection_.stencil(),
+                       body_->band);
 }
 
 void Solver::drive(Real t) {
@@ -318,8 +324,8 @@ void Solver::drive(Real t) {
 void Solver::predict_momentum(Real dt) {
   const Profile::Call call(profile_, calls_.predict_momentum);
   set_boundary_velocity(u_b_new_, state_.u, conditions_, state_.t + dt, mesh_);
-  if (auto& past = momentum_.past())
-    set_boundary_velocity(past->u_b, past->u, conditions_, state_.t - momentum_.dt_old, mesh_);
+  if (auto& old = momentum_.old())
+    set_boundary_velocity(old->u_b, old->u, conditions_, state_.t - momentum_.dt_old, mesh_);
   const flow::MomentumTerms terms{
       .u_b = u_b_,
       .u_b_new = u_b_new_,
@@ -339,14 +345,14 @@ void Solver::predict_momentum(Real dt) {
 void Solver::predict_flux(Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_gradient(u_b_new_, state_.t + dt);
-  for (const auto& [i, L] : sided_L_f_) L_f_[i] = L;
+  for (const auto& [i, L] : interface_L_f_) L_f_[i] = L;
   const flow::FluxTerms terms{
       .L_f = L_f_,
       .p = state_.p,
       .grad_p = grad_p_,
       .grad_p_f = projection_.face_gradient(),
       .p_b = p_b_,
-      .balance = balance_,
+      .rhie_chow_source = rhie_chow_source_,
       .mu = mu_,
       .theta = momentum_.theta_taken(),
       .kappa = implicit(),
@@ -354,7 +360,9 @@ void Solver::predict_flux(Real dt) {
       .rho = physics_.rho,
       .dt = dt,
       .stress = body_ ? physics_.G : 0,
-      .strained = body_ && body_->strained_by_flux() ? 1 / solid::Stiffness::share : 0};
+      .flux_strain = body_ && body_->strain_by_flux()
+                         ? 1 / solid::SemiImplicitElasticity::implicit_fraction
+                         : 0};
   flow::predict_flux(state_.phi, state_.u, u_b_new_, momentum_.boundary().open, terms, weights_,
                      mesh_);
 }
@@ -364,7 +372,7 @@ void Solver::project(Real dt) {
   flow::divergence(divergence_, state_.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   openings_.advance(q_b_, state_.t + dt / 2, dt / physics_.rho);
-  const Solve solve =
+  const SolveResult solve =
       projection_.project(state_.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
   loads_.answer(state_.phi, q_, grad_q_, state_.t + dt / 2, dt);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
@@ -380,16 +388,6 @@ void Solver::project(Real dt) {
 void Solver::hold_mean_velocity(Real dt) {
   const Profile::Call call(profile_, calls_.hold_mean_velocity);
   if (forcing_) forcing_->hold(state_.u, state_.phi, physics_.rho, dt);
-}
-
-void Solver::check() {
-  const Profile::Call call(profile_, calls_.check);
-  Real sum = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
-  if (body_)
-    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
-  if (!all_of_ranks(std::isfinite(sum)))
-    throw Error(Kind::numerics, "velocity, pressure or strain is not finite");
 }
 
 }  // namespace fsi

@@ -142,11 +142,11 @@ class Solver {
  private:
   void update_gradients();
   void advance_interface(Real t);
-  void carry_pressure();
+  void advect_pressure_jump();
   void transport_elastic();
   void mix_viscosity();
   void set_elastic_force();
-  void stiffen(Real dt);
+  void add_semi_implicit(Real dt);
   void drive(Real t);
   void predict_momentum(Real dt);
   void predict_flux(Real dt);
@@ -156,7 +156,7 @@ class Solver {
   /// Velocity at the boundary at time t; L_ and L_f_ of u and it, where they are needed.
   void set_gradient(BoundaryField<Vec3>& u_b, Real t);
   /// Between cells whose L_ is that of one side of the solid's surface L_f_ is its mean.
-  void take_sided_gradient();
+  void take_interface_gradient();
   /// L_ = grad u on the listed owned cells; its halo.
   void set_L(const CellField<Vec3>& u, std::span<const Index> cells);
   /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
@@ -174,12 +174,12 @@ class Solver {
     eigenvalue,
     solve
   };
-  struct Objection {
+  struct Rejection {
     std::string reason{};
     Term term = Term::none;
   };
   /// Against what a step of dt leaves behind; empty where there is nothing.
-  Objection objection(Real dt) const;
+  Rejection rejection_reason(Real dt) const;
   /// Where the state as it stands is worst in that respect: a sentence with figure, place and cell.
   std::string diagnosis(Term term, Real dt);
   std::string diagnosis_of_solid(Term term, Real dt);
@@ -192,7 +192,8 @@ class Solver {
   bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
   /// Whether the momentum equation needs the velocity gradient in all cells.
   bool needs_L() const {
-    return weights_.uneven || momentum_.reads_L() || mu_varies() || (body_ && body_->sided);
+    return weights_.uneven || momentum_.reads_L() || mu_varies() ||
+           (body_ && body_->interface_gradient);
   }
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const {
@@ -204,8 +205,8 @@ class Solver {
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
-    int update_gradients, advance_interface, carry_pressure, transport_elastic, mix_viscosity,
-        set_elastic_force, stiffen, drive, predict_momentum, predict_flux, project,
+    int update_gradients, advance_interface, advect_pressure_jump, transport_elastic, mix_viscosity,
+        set_elastic_force, add_semi_implicit, drive, predict_momentum, predict_flux, project,
         hold_mean_velocity, check;
   };
 
@@ -232,11 +233,11 @@ class Solver {
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
-  FaceField<Real> mu_, kappa_, balance_;
+  FaceField<Real> mu_, kappa_, rhie_chow_source_;
   GradientStencil u_stencil_;
   VertexMean<Tensor> vertex_mean_;
-  std::vector<Tensor> L_f_;                          // at irregular faces
-  std::vector<std::pair<Index, Tensor>> sided_L_f_;  // what stands there beside the surface
+  std::vector<Tensor> L_f_;                              // at irregular faces
+  std::vector<std::pair<Index, Tensor>> interface_L_f_;  // what stands there beside the surface
   flow::Openings openings_;
   flow::Projection projection_;
   flow::Loads loads_;

@@ -10,7 +10,7 @@ import sys
 
 FLOORS = {
     "core": 0, "geometry": 1, "shapes": 1, "mesh": 1, "field": 2, "operators": 3, "vof": 4,
-    "solid": 4, "flow": 4, "analysis": 4, "io": 4, "solver": 5,
+    "solid": 4, "flow": 4, "analysis": 4, "io": 4, "solver": 5, "run": 6,
 }
 # Where PETSc may be called.
 PETSC_HOMES = ("libfsi/core/", "libfsi/mesh/plex", "libfsi/mesh/halo",

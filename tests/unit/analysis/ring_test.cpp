@@ -36,7 +36,7 @@ TEST(Ring, FrameTurnsWithTheAxis) {
   EXPECT_NEAR(norm(f.zeta - Vec3{0, 0, 1}), 0, 1e-15);
   EXPECT_NEAR(norm(f.eta - Vec3{std::sin(psi), -std::cos(psi), 0}), 0, 1e-15);
   EXPECT_NEAR(norm(ring_frame({0, 0, 1}).zeta - Vec3{0, 1, 0}), 0, 1e-15);
-  // Carried along, zeta does not jump where the axis passes z.
+  // PrescribedAdvection along, zeta does not jump where the axis passes z.
   Vec3 zeta{1, 0, 0};
   for (const Real t : {0.0, 0.1, 0.2}) zeta = ring_frame({-std::sin(t), 0, std::cos(t)}, zeta).zeta;
   EXPECT_NEAR(norm(zeta - Vec3{std::cos(0.2), 0, std::sin(0.2)}), 0, 1e-14);

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Clock, StepsLandOnEventsAndOnTheEnd) {
   Clock clock(1);
-  Every event(0.25);
+  Schedule event(0.25);
   int events = 0, steps = 0;
   EXPECT_TRUE(event.due(0));
   while (clock.running()) {
@@ -28,13 +28,13 @@ TEST(Clock, StepsLandOnEventsAndOnTheEnd) {
 }
 
 TEST(Clock, AnEventWithoutIntervalNeverFires) {
-  Every event(0);
+  Schedule event(0);
   EXPECT_FALSE(event.due(0));
   EXPECT_FALSE(event.due(5));
 }
 
 TEST(Clock, EveryMultipleIsReachedOnce) {
-  Every event(0.5);
+  Schedule event(0.5);
   EXPECT_EQ(event.reached(0.3), std::vector<Real>{0});
   EXPECT_EQ(event.reached(1.6), (std::vector<Real>{0.5, 1, 1.5}));
   EXPECT_TRUE(event.reached(1.9).empty());
@@ -43,7 +43,7 @@ TEST(Clock, EveryMultipleIsReachedOnce) {
 }
 
 TEST(Clock, ResumeForgetsWhatLiesBefore) {
-  Every event(0.5);
+  Schedule event(0.5);
   event.resume(1.2);
   EXPECT_FALSE(event.due(1.3));
   EXPECT_TRUE(event.due(1.5));

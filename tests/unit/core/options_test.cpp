@@ -19,7 +19,7 @@ std::string sentence(const char* arguments, F read) {
   try {
     read(options);
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     text = error.what();
   }
   FSI_PETSC(PetscOptionsClear(nullptr));

@@ -11,8 +11,8 @@ namespace fsi::flow {
 namespace {
 
 /// The weighted values of t^n, n = 0, 1, 2, at 0, -dt_old and -dt_old - dt_before.
-Real weighted(int n, Real dt, Real dt_old, Real dt_before, Real bend = 1) {
-  const auto w = adams_bashforth(dt, dt_old, dt_before, bend);
+Real weighted(int n, Real dt, Real dt_old, Real dt_before, Real ab3_weight = 1) {
+  const auto w = adams_bashforth(dt, dt_old, dt_before, ab3_weight);
   return w[0] * std::pow(0.0, n) + w[1] * std::pow(-dt_old, n) +
          w[2] * std::pow(-dt_old - dt_before, n);
 }

@@ -194,7 +194,7 @@ TEST(Fields, WhatIsNotFiniteIsNotWritten) {
     writer.write(0, std::array{io::named("u", u)});
     ADD_FAILURE() << "written";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::numerics);
+    EXPECT_EQ(error.kind(), ErrorKind::numerics);
     EXPECT_STREQ(error.what(), "field \"u\" is not finite in cell 2 at (0.833333, 0.25, 0)");
   }
   EXPECT_FALSE(exists(folder / "fields_0000.hdf"));
@@ -207,7 +207,7 @@ TEST(Fields, AFailedWriteIsAnErrorOnAllRanks) {
     const FieldWriter writer(folder / "none", mesh);
     ADD_FAILURE() << "written";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::io);
+    EXPECT_EQ(error.kind(), ErrorKind::io);
   }
 }
 

@@ -61,7 +61,7 @@ TEST(Lock, OneRunHoldsADirectory) {
     const io::Lock second(folder.path());
     ADD_FAILURE() << "two locks";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_NE(std::string(error.what()).find("in use by another run"), std::string::npos);
   }
   first.reset();

@@ -54,7 +54,7 @@ TEST(Manifest, WhatCannotBeWrittenIsNamed) {
       action(folder / "file/below");
       ADD_FAILURE() << "written";
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), Kind::io);
+      EXPECT_EQ(error.kind(), ErrorKind::io);
       EXPECT_NE(std::string(error.what()).find("Not a directory"), std::string::npos)
           << error.what();
     }

@@ -74,7 +74,7 @@ TEST(Table, WhatIsNotFiniteIsNotWritten) {
       table.row(std::vector<Real>{0, bad});
       ADD_FAILURE() << "written";
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), Kind::numerics);
+      EXPECT_EQ(error.kind(), ErrorKind::numerics);
       EXPECT_NE(std::string(error.what()).find("column \"x\""), std::string::npos);
     }
   }
@@ -87,7 +87,7 @@ TEST(Table, AMissingFolderIsAnError) {
     const Table table(folder / "none/a.csv", {"t"});
     ADD_FAILURE() << "opened";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::io);
+    EXPECT_EQ(error.kind(), ErrorKind::io);
     EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos);
   }
 }

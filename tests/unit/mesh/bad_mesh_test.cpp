@@ -174,7 +174,7 @@ std::string sentence_of(const std::string& text, const std::vector<std::string>&
   try {
     read_mesh({file.path(), periodic});
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     const std::string mine = error.what();
     EXPECT_EQ(mine, broadcast(mine)) << "all ranks say the same";
     return mine;
@@ -201,7 +201,7 @@ TEST(BadMesh, CutAnywhere) {
     try {
       check_mesh(parse_gmsh("cut.msh", good.substr(0, length)), {});
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), Kind::input);
+      EXPECT_EQ(error.kind(), ErrorKind::input);
       sentence = error.what();
     }
     EXPECT_EQ(sentence.rfind("cut.msh", 0), 0u) << "at " << length << ": " << sentence;

@@ -146,7 +146,7 @@ TEST(Gmsh, SidesWhoseTrianglesDoNotMatch) {
     built("box_tets", {"bottom", "top"});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_NE(std::string(error.what()).find("of periodic patch \"bottom\" has no counterpart"),
               std::string::npos);
   }

@@ -186,7 +186,7 @@ void expect_refused(const std::string& file, const std::vector<std::string>& per
     divided(file, periodic);
     ADD_FAILURE() << "no error: " << words;
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
   }
 }

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/solid/carrier.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 #include "tests/unit/support/box_file.hpp"
 
 namespace fsi::test {

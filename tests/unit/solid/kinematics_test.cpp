@@ -215,7 +215,7 @@ TEST(Kinematics, TheDeformationOfACell) {
   run.alpha.fill(0);
   run.alpha[0] = 0.25;
   band.rebuild(run.alpha, run.kinematics.alpha_min);
-  run.kinematics.weigh(stored, lambda, run.alpha, band);
+  run.kinematics.update_B(stored, lambda, run.alpha, band);
   EXPECT_LE(largest(stored[0] - B), 1e-15);
   EXPECT_NEAR(lambda[0], eigen(B).value[2], 1e-15);
 }

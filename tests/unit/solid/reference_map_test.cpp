@@ -130,7 +130,7 @@ TEST(ReferenceMap, IsSetByItsMapAlone) {
     run.kinematics.set(0, identity(), 1);
     ADD_FAILURE() << "B was taken";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
   }
 }
 
@@ -150,7 +150,7 @@ TEST(ReferenceMap, AFoldedMapIsRefused) {
     run.step(0.01);
     ADD_FAILURE() << "a folded map was taken";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::numerics);
+    EXPECT_EQ(error.kind(), ErrorKind::numerics);
   }
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "libfsi/solid/carried_pressure.hpp"
+#include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/log_conformation.hpp"
-#include "libfsi/solid/neo_hookean.hpp"
 #include "libfsi/solid/one_sided.hpp"
+#include "libfsi/solid/pressure_jump.hpp"
 #include "libfsi/vof/face_fraction.hpp"
 #include "tests/unit/solid/full.hpp"
 
@@ -125,13 +125,13 @@ TEST(CarriedPressure, TheJumpGoesWithTheSurface) {
     p[c] = s * before;
   }
   const auto cells = owned(mesh);
-  solid::carry_pressure(p, alpha_mid, alpha, B_c, G, mesh, cells);
+  solid::advect_pressure_jump(p, alpha_mid, alpha, B_c, G, mesh, cells);
   for (const Index c : cells) EXPECT_NEAR(p[c], s * alpha[c], 1e-13);
 }
 
 // Half of the way from the centre of a cell to the wall is fluid: the shear stress of the solid
 // acts over the other half of the distance over which the wall's viscous stress is taken.
-TEST(NeoHookean, AFilmAtAWall) {
+TEST(ElasticForce, AFilmAtAWall) {
   constexpr Real G = 3, y_0 = 1.0 / 32;
   const SymTensor B{1, 0.4, 0, 1, 0, 1};
   const Mesh mesh = test::read_box({.n = {8, 8, 0}, .periodic = {"left", "right"}});
@@ -144,7 +144,7 @@ TEST(NeoHookean, AFilmAtAWall) {
       alpha[c] = 0.75, interface.piece[c] = {{0, -1, 0}, {mesh.C[c].x, y_0, 0}, 0.125};
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.n_faces; ++f) faces.push_back(f);
-  FaceField<Real> alpha_f(mesh), balance(mesh);
+  FaceField<Real> alpha_f(mesh), rhie_chow_source(mesh);
   FaceField<Vec3> normal(mesh);
   vof::face_fraction(alpha_f, alpha, interface, weights, mesh, faces);
   vof::face_normal(normal, alpha, interface, mesh, faces);
@@ -153,8 +153,8 @@ TEST(NeoHookean, AFilmAtAWall) {
   CellField<solid::SymGradient> grad(mesh);
   Band band(mesh);
   band.rebuild(alpha, 0.1);
-  solid::NeoHookean law(mesh, weights, G);
-  law.apply(force, balance, {B_c, alpha, &alpha_f, &normal}, weights, stencil, band, grad);
+  solid::ElasticForce law(mesh, weights, G);
+  law.apply(force, rhie_chow_source, {B_c, alpha, &alpha_f, &normal}, weights, stencil, band, grad);
   for (const Index c : owned(mesh)) {
     const Real y = mesh.C[c].y;
     EXPECT_NEAR(force[c].x, y < 0.125 ? 0.5 * G * B.xy * 8 : 0, 1e-12);

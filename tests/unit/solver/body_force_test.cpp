@@ -72,8 +72,8 @@ Real excess(Index n) {
   const Body body(mesh, weights, disc, 1, KinematicsKind::log_conformation);
   solid::BodyForce weight(mesh, weights, {0, -g, 0});
   CellField<Vec3> force(mesh);
-  FaceField<Real> balance(mesh);
-  weight.apply(force, balance, body.alpha_f, stencil, body.band);
+  FaceField<Real> rhie_chow_source(mesh);
+  weight.apply(force, rhie_chow_source, body.alpha_f, stencil, body.band);
   Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c) sum.add(mesh.V[c] * force[c].y);
   return sum.total() / (-g * body.filled.volume) - 1;

@@ -21,25 +21,25 @@ TEST(Flux, StrainsNoMoreOffThanThereIs) {
   CellField<Real> p(mesh);
   BoundaryField<Vec3> u_b(mesh);
   BoundaryField<Real> p_b(mesh);
-  FaceField<Real> phi(mesh), balance(mesh, 2 * s), mu(mesh), kappa(mesh), theta(mesh, 0.5);
+  FaceField<Real> phi(mesh), rhie_chow_source(mesh, 2 * s), mu(mesh), kappa(mesh), theta(mesh, 0.5);
   const std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);
   for (const Real dt : {1e-4, 1e-2, 1.0}) {
     kappa.fill(0.3 * dt * G);
-    const auto taken_off = [&](Real strained) {
+    const auto taken_off = [&](Real flux_strain) {
       flow::predict_flux(phi, u, u_b, open,
                          {.L_f = {},
                           .p = p,
                           .grad_p = grad_p,
                           .grad_p_f = {},
                           .p_b = p_b,
-                          .balance = balance,
+                          .rhie_chow_source = rhie_chow_source,
                           .mu = mu,
                           .theta = theta,
                           .kappa = kappa,
                           .elastic = kappa,
                           .rho = 1,
                           .dt = dt,
-                          .strained = strained},
+                          .flux_strain = flux_strain},
                          weights, mesh);
       const Real in = phi[0] / norm(mesh.Sf[0]);  // as much enters on the other side
       return G * 2 * (2 * in / d) * dt / s;

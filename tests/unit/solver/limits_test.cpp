@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "libfsi/solver/case.hpp"
+#include "libfsi/run/case.hpp"
 #include "tests/unit/support/box_mesh.hpp"
 
 namespace fsi {

@@ -33,10 +33,10 @@ std::string different(Solver& solver, const io::Layout& cells, const io::Layout&
   solver.list(all);
   std::string names;
   for (const io::Snapshot::Values& field : all.fields()) {
-    if (field.on == On::boundary || field.name == "convection" ||
+    if (field.on == Location::boundary || field.name == "convection" ||
         field.name == "convection_before" || field.name == "viscous_rest")
       continue;
-    const bool on_cells = field.on == On::cells;
+    const bool on_cells = field.on == Location::cells;
     const io::Layout& layout = on_cells ? cells : faces;
     std::vector<Real> room, again(static_cast<std::size_t>(on_cells ? mesh.n_cells : mesh.n_faces) *
                                   static_cast<std::size_t>(field.width));
@@ -58,7 +58,7 @@ void expect_one_state(const Scene& scene) {
   solver.start([](const Vec3&) { return Vec3{}; });
   solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.5, mesh.dim == 3 ? 0.5 : 0}),
                    scene.kinematics);
-  const io::Layout cells(mesh, On::cells), faces(mesh, On::faces);
+  const io::Layout cells(mesh, Location::cells), faces(mesh, Location::faces);
   for (int i = 0; i < scene.steps; ++i) {
     const Real dt = std::min({0.02, solver.advective_dt(0.5), solver.boundary_dt(0.5),
                               solver.carried_dt(), solver.elastic_dt()});

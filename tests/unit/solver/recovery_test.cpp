@@ -49,7 +49,7 @@ struct Trial {
     solver.list(all);
     std::vector<Real> values;
     for (const auto& f : all.fields()) {
-      const Index items = f.on == On::cells ? mesh.n_cells : mesh.n_faces;
+      const Index items = f.on == Location::cells ? mesh.n_cells : mesh.n_faces;
       values.insert(values.end(), f.values,
                     f.values + static_cast<std::ptrdiff_t>(items) * f.width);
     }

@@ -37,7 +37,7 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   PressureStencil of_p(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   CellField<Tensor> L(mesh);
   gradient(L, u, u_b, of_u, mesh);
-  FaceField<Real> mu_f(mesh), balance(mesh);
+  FaceField<Real> mu_f(mesh), rhie_chow_source(mesh);
   flow::mixture_viscosity(mu_f, body.alpha, mu.fluid, mu.solid, weights, mesh);
   const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
   const flow::ViscousBoundary walls{none, none};
@@ -51,7 +51,7 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   CellField<Real> height(mesh);
   vof::cell_plane(normal, height, body.alpha, body.interface, mesh, body.band.cells());
   solid::SurfaceTraction traction(mesh, weights, 0, mu);
-  traction.apply(force, balance,
+  traction.apply(force, rhie_chow_source,
                  {u, L, L_f, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f},
                  weights, of_p, body.band);
   CellField<Real> s(mesh);

@@ -28,7 +28,7 @@ std::string complaint(const Mesh& mesh, const Conditions& conditions) {
   try {
     resolve(conditions, mesh);
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Kind::input);
+    EXPECT_EQ(error.kind(), ErrorKind::input);
     return error.what();
   }
   return "";

@@ -10,7 +10,7 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/read.hpp"
-#include "libfsi/solver/carried.hpp"
+#include "libfsi/run/prescribed_advection.hpp"
 
 namespace fsi {
 namespace {
@@ -22,7 +22,7 @@ void expect_error(const std::string& name, const std::string& flow, Real publish
   const bool space = flow == "deformation";
   const Vec3 centre = space ? Vec3{0.35, 0.35, 0.35} : Vec3{0.5, 0.75, 0};
   const vof::Motion motion = vof::motion(flow);
-  Carried carried(mesh, motion, shapes::translate(shapes::sphere(0.15), centre));
+  PrescribedAdvection carried(mesh, motion, shapes::translate(shapes::sphere(0.15), centre));
   const auto volume = [&] {
     Sum sum;
     for (Index c = 0; c < mesh.n_owned; ++c) sum.add(carried.alpha()[c] * mesh.V[c]);
@@ -49,9 +49,9 @@ void expect_error(const std::string& name, const std::string& flow, Real publish
   EXPECT_LE(outside, 1e-12);
 }
 
-TEST(Carried, Quads64) { expect_error("quads64", "vortex", 8.16e-3); }
-TEST(Carried, Quads128) { expect_error("quads128", "vortex", 2.33e-3); }
-TEST(Carried, Triangles16k) { expect_error("triangles80", "vortex", 3.58e-3); }
+TEST(PrescribedAdvection, Quads64) { expect_error("quads64", "vortex", 8.16e-3); }
+TEST(PrescribedAdvection, Quads128) { expect_error("quads128", "vortex", 2.33e-3); }
+TEST(PrescribedAdvection, Triangles16k) { expect_error("triangles80", "vortex", 3.58e-3); }
 
 TEST(CarriedFine, Quads256) { expect_error("quads256", "vortex", 5.37e-4); }
 TEST(CarriedFine, Triangles65k) { expect_error("triangles162", "vortex", 7.51e-4); }

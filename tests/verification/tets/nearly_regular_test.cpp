@@ -20,8 +20,8 @@ constexpr Real w = 2 * std::numbers::pi, mu = 0.1;
 constexpr Index n = 32;
 
 /// A number in (-1, 1) of each point, the same on every rank.
-Real noise(const Vec3& x, Real which) {
-  const Real s = std::sin(12.9898 * x.x + 78.233 * x.y + which) * 43758.5453;
+Real noise(const Vec3& x, Real setup) {
+  const Real s = std::sin(12.9898 * x.x + 78.233 * x.y + setup) * 43758.5453;
   return 2 * (s - std::floor(s)) - 1;
 }
 

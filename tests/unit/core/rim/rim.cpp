@@ -16,7 +16,7 @@ namespace fsi {
 namespace {
 
 /// The last rank throws while the others wait for it.
-void fail_alone(Kind kind) {
+void fail_alone(ErrorKind kind) {
   if (rank() == ranks() - 1) throw Error(kind, "one rank alone");
   all_of_ranks(true);
 }
@@ -28,29 +28,29 @@ void fail_in_petsc(const char* type) {
   FSI_PETSC(KSPSetFromOptions(solver));
 }
 
-Ending body() {
+RunStatus body() {
   Options options("rim", "ends in every way");
   const std::string mode = options.text("mode", "complete", "how to end");
   const Real value = options.real("value", 1, {.help = "a number", .positive = true});
-  if (options.help()) return Ending::complete;
+  if (options.help()) return RunStatus::complete;
   options.check_unknown();
-  if (mode == "input") throw Error(Kind::input, "all ranks alike");
-  if (mode == "numerics") throw Error(Kind::numerics, "all ranks alike");
-  if (mode == "io") throw Error(Kind::io, "all ranks alike");
+  if (mode == "input") throw Error(ErrorKind::input, "all ranks alike");
+  if (mode == "numerics") throw Error(ErrorKind::numerics, "all ranks alike");
+  if (mode == "io") throw Error(ErrorKind::io, "all ranks alike");
   if (mode == "internal") throw std::runtime_error("all ranks alike");
   if (mode == "memory") throw std::bad_alloc();
-  if (mode == "alone-input") fail_alone(Kind::input);
-  if (mode == "alone-numerics") fail_alone(Kind::numerics);
-  if (mode == "alone-io") fail_alone(Kind::io);
+  if (mode == "alone-input") fail_alone(ErrorKind::input);
+  if (mode == "alone-numerics") fail_alone(ErrorKind::numerics);
+  if (mode == "alone-io") fail_alone(ErrorKind::io);
   if (mode == "petsc") fail_in_petsc("nonsense");
   if (mode == "petsc-call") FSI_PETSC(PetscOptionsSetValue(nullptr, "no dash", ""));
-  if (mode == "interrupted") return Ending::interrupted;
+  if (mode == "interrupted") return RunStatus::interrupted;
   if (mode == "signal") {
     if (rank() == ranks() - 1) std::raise(SIGTERM);
-    return pending_signal() == Signal::end ? Ending::interrupted : Ending::complete;
+    return pending_signal() == Signal::end ? RunStatus::interrupted : RunStatus::complete;
   }
   if (rank() == 0) std::printf("value %g\n", value);
-  return Ending::complete;
+  return RunStatus::complete;
 }
 
 }  // namespace

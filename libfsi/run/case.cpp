@@ -1,0 +1,253 @@
+#include "libfsi/run/case.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
+
+namespace fsi {
+namespace {
+
+MeshOptions read_mesh_options(Options& options, const Vec3& path) {
+  MeshOptions mesh;
+  mesh.file = options.text(
+      "mesh", "", "gmsh file, 2.2 or 4.x, or .h5 of fsi-mesh convert; a 2-D mesh makes a 2-D run");
+  mesh.periodic =
+      options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
+  mesh.partitioner =
+      options.choice("petscpartitioner_type", "metis", {"metis", "ptscotch", "simple"},
+                     "how the mesh is divided among ranks");
+  if (mesh.partitioner == "metis")
+    mesh.along = options.vec3("mesh_divide_along", path,
+                              {.help = "direction the solid travels in: the mesh is divided "
+                                       "lengthwise, so that ranks share the solid all the way; "
+                                       "0,0,0: none",
+                               .unit = ""});
+  return mesh;
+}
+
+Physics read_physics(Options& options) {
+  const std::string viscosity = "mass / (length time)", density = "mass / volume";
+  Physics physics;
+  physics.rho = options.real("fluid_density", 1,
+                             {.help = "density of the fluid", .unit = density, .positive = true});
+  physics.mu_f =
+      options.real("fluid_viscosity", 0.01,
+                   {.help = "dynamic viscosity of the fluid", .unit = viscosity, .positive = true});
+  return physics;
+}
+
+FlowSetup read_flow(Options& options) {
+  FlowSetup flow;
+  flow.convection = flow::convection_of(options.choice(
+      "flow_convection", "linear", flow::convection_names(),
+      "velocity at a face: linear between its cells, their mean (symmetric: makes no "
+      "kinetic energy on any mesh), linear_upwind, or that without new extremes "
+      "(limited)"));
+  return flow;
+}
+
+TimeSetup read_time(Options& options) {
+  TimeSetup time;
+  time.end =
+      options.real("time_end", 1, {.help = "end of the run", .unit = "time", .positive = true});
+  time.courant =
+      options.real("time_courant", 0.5,
+                   {.help = "largest Courant number", .unit = "", .max = 1, .positive = true});
+  time.step = options.real(
+      "time_step", 0, {.help = "fixed step; 0: as the limits allow", .unit = "time", .min = 0});
+  time.step_max =
+      options.real("time_step_max", 0, {.help = "largest step; 0: none", .unit = "time", .min = 0});
+  time.step_first = options.real(
+      "time_step_first", 0,
+      {.help = "first step, from which the next ones grow by a tenth each; 0: none of that",
+       .unit = "time",
+       .min = 0});
+  for (const auto& [name, other] : {std::pair{"max", time.step_max}, {"first", time.step_first}})
+    require(time.step == 0 || other == 0, std::string("options -time_step and -time_step_") + name +
+                                              ": a fixed step has no other; give one of them");
+  return time;
+}
+
+OutputSetup read_output(Options& options, const std::string& driver) {
+  OutputSetup output;
+  output.directory = options.text("output_dir", "out/" + driver, "where the files of the run go");
+  output.field_interval = options.real(
+      "output_interval", 0, {.help = "between field files; 0: none", .unit = "time", .min = 0});
+  output.sample_interval =
+      options.real("sample_interval", 0,
+                   {.help = "between rows of the csv files, which cut no step; 0: a row every step",
+                    .unit = "time",
+                    .min = 0});
+  output.checkpoint_interval = options.real(
+      "checkpoint_interval", 0,
+      {.help = "between checkpoints, of which the two newest are kept; 0: one where the "
+               "run does not reach its end",
+       .unit = "time",
+       .min = 0});
+  output.restart =
+      options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
+  output.end_when_empty =
+      options.flag("end_when_empty", false, "end the run once the solid has left the mesh");
+  output.wall_seconds_max = options.real(
+      "max_wall_time", 0,
+      {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});
+  return output;
+}
+
+/// The patches that are walls.
+std::vector<std::string> walls_of(const Conditions& conditions, const Mesh& mesh) {
+  std::vector<std::string> walls;
+  for (const Patch& patch : mesh.patches) {
+    const auto found = conditions.find(patch.name);
+    if (found != conditions.end() && std::holds_alternative<Wall>(found->second))
+      walls.push_back(patch.name);
+  }
+  return walls;
+}
+
+/// Lines "name value".
+std::map<std::string, std::string> lines(const std::string& text) {
+  std::map<std::string, std::string> items;
+  std::istringstream stream(text);
+  for (std::string name, value; stream >> name && std::getline(stream >> std::ws, value);)
+    items[name] = value;
+  return items;
+}
+
+/// Collective. Cells with their centre in the solid: the most a rank holds over the mean; 0: none.
+Real solid_share(const Mesh& mesh, const shapes::Shape& shape) {
+  const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
+  const auto mine = std::ranges::count_if(centres, [&](const Vec3& x) { return shape(x) < 0; });
+  const GlobalIndex total = global_sum(static_cast<GlobalIndex>(mine));
+  const Real most = global_max(static_cast<Real>(mine));
+  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+}
+
+/// Whether an option tells of the solid's shape and place at the start.
+bool of_undeformed_solid(const std::string& name) {
+  constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
+  return name.starts_with("solid_") &&
+         std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
+}
+
+}  // namespace
+
+Case read_case(Options& options, const std::string& driver, const Vec3& path) {
+  Case result;
+  result.mesh = read_mesh_options(options, path);
+  result.physics = read_physics(options);
+  result.flow = read_flow(options);
+  result.solid = read_solid(options, result.physics);
+  // What the solid costs is spent in its cells and those its surface cuts; these too are counted
+  // by a margin, as nothing is known of their size here.
+  constexpr Real margin = 0.1;
+  if (result.solid.shape)
+    result.mesh.load = [shape = *result.solid.shape, reach = margin * result.solid.thickness](
+                           const Vec3& x) { return shape(x) < reach ? 1.0 : 0.0; };
+  result.time = read_time(options);
+  result.output = read_output(options, driver);
+  require(options.help() || !result.mesh.file.empty(),
+          "option -mesh is missing: the gmsh file of the geometry");
+  return result;
+}
+
+std::string simulated(const Options& options) {
+  constexpr std::array not_simulated{"mesh",    "petscpartitioner", "time_",
+                                     "output_", "sample_",          "check",
+                                     "restart", "max_wall_time",    "end_when_empty"};
+  std::string text;
+  for (const auto& [name, value] : options.values()) {
+    const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
+    if (std::ranges::none_of(not_simulated, begins))
+      text.append(name).append(" ").append(value).append("\n");
+  }
+  return text;
+}
+
+std::string differences(const std::string& before, const std::string& now) {
+  const std::map<std::string, std::string> old = lines(before), current = lines(now);
+  std::set<std::string> names;
+  for (const auto* side : {&old, &current})
+    for (const auto& item : *side) names.insert(item.first);
+  std::string text;
+  bool solid = false;
+  for (const std::string& name : names) {
+    const auto was = old.find(name), is = current.find(name);
+    if (was != old.end() && is != current.end() && was->second == is->second) continue;
+    text += (text.empty() ? "-" : ", -") + name + " ";
+    text += is == current.end() ? "left out" : is->second;
+    text += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
+    solid = solid || of_undeformed_solid(name);
+  }
+  if (text.empty()) return "";
+  return "goes on with other values than those of the checkpoint: " + text +
+         (solid ? "; the solid's shape and place stay those of the checkpoint" : "");
+}
+
+void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
+  const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
+  const Real share = ranks() > 1 && setup.solid.shape ? solid_share(mesh, *setup.solid.shape) : 0;
+  if (rank() != 0) return;
+  std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());
+  const std::string past = warning(setup.mesh.file, findings(figures));
+  if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
+  if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
+  const Physics& p = setup.physics;
+  if (velocity == 0) {
+    std::printf("the flow decides on Re: column reynolds of flow.csv\n");
+    if (setup.solid.shape)
+      std::printf("%s: density ratio 1, viscosity ratio %.4g, thickness %g\n",
+                  setup.solid.name.c_str(), p.mu_s / p.mu_f, setup.solid.thickness);
+    std::fflush(stdout);
+    return;
+  }
+  std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
+              length, velocity);
+  if (setup.solid.shape) {
+    const auto cells = static_cast<Real>(mesh.n_global);
+    const Real h = std::pow(mesh.total_volume / cells, 1.0 / mesh.dim);
+    std::printf(
+        "%s: Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g, density ratio 1, viscosity "
+        "ratio "
+        "%.4g, %.1f cells through its thickness of %g\n",
+        setup.solid.name.c_str(), p.mu_f * velocity / (p.G * length),
+        p.G / (p.rho * velocity * velocity), p.mu_s / p.mu_f, setup.solid.thickness / h,
+        setup.solid.thickness);
+  }
+  std::fflush(stdout);
+}
+
+std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
+  if (time.step > 0) return {{time.step, "fixed"}};
+  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}};
+  // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
+  // run is then small enough.
+  constexpr int steps_of_start = 10;
+  if (solver.state().step < steps_of_start)
+    all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
+  if (solver.body()) all.push_back({solver.carried_dt(), "advective"});
+  if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
+  constexpr Real strain = 0.4;  // below what a step is rejected for
+  if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});
+  constexpr Real growth = 1.1;
+  if (time.step_first > 0)
+    all.push_back({time.step_first * std::pow(growth, solver.state().step), "start"});
+  if (time.step_max > 0) all.push_back({time.step_max, "step_max"});
+  return all;
+}
+
+Limit stable_dt(const Solver& solver, const TimeSetup& time) {
+  Limit limit;
+  for (const Limit& other : limits(solver, time)) limit = tighter(limit, other);
+  return limit;
+}
+
+}  // namespace fsi

@@ -1,0 +1,77 @@
+#pragma once
+// The options all drivers share, resolved into plain structs.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/options.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+
+/// How time advances.
+struct TimeSetup {
+  Real end = 1, courant = 0.5;
+  Real step = 0;        ///< fixed step; 0: as large as the limits allow
+  Real step_max = 0;    ///< 0: none
+  Real step_first = 0;  ///< the next ones grow by a tenth each; 0: none of that
+};
+
+/// What is written, where and how often.
+struct OutputSetup {
+  std::string directory;
+  Real field_interval = 0, sample_interval = 0,
+       checkpoint_interval = 0;  ///< simulated time; 0: never
+  bool restart = false;
+  bool end_when_empty = false;  ///< once the solid has left the mesh
+  Real wall_seconds_max = 0;    ///< 0: no limit
+};
+
+/// The undeformed solid; no shape: no solid.
+struct SolidSetup {
+  std::optional<shapes::Shape> shape;
+  std::optional<shapes::Shape> about_origin;  ///< the same, its axis of revolution along x
+  Real angle = 0;                             ///< between that axis and x when placed, in degrees
+  std::string name = "none";
+  Real thickness = 0;  ///< the least of its dimensions
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+};
+
+/// A case as the user described it.
+struct Case {
+  MeshOptions mesh;
+  Physics physics;
+  FlowSetup flow;  ///< without conditions
+  SolidSetup solid;
+  TimeSetup time;
+  OutputSetup output;
+};
+
+/// Reads the solid's options; sets mu_s and G. Errors: Error{input}.
+SolidSetup read_solid(Options& options, Physics& physics);
+
+/// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the
+/// default of -mesh_divide_along. Errors: Error{input}.
+Case read_case(Options& options, const std::string& driver, const Vec3& path = {});
+
+/// What is simulated, a line "name value" an option: all but those of mesh, time and output.
+std::string simulated(const Options& options);
+
+/// A sentence on where this run's `simulated` differs from that of the run it goes on from; ""
+/// where it does not.
+std::string differences(const std::string& before, const std::string& now);
+
+/// Collective. Prints what the run is about: the mesh and its figures, a warning where one is past
+/// its limit (mesh/figures.hpp), and the numbers that follow from the case's length and velocity.
+/// velocity 0: it is not known yet, and what depends on it is left out.
+void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity);
+
+/// Collective. Every limit on the time step; a fixed step is the only one.
+std::vector<Limit> limits(const Solver& solver, const TimeSetup& time);
+
+/// Collective. The smallest of them.
+Limit stable_dt(const Solver& solver, const TimeSetup& time);
+
+}  // namespace fsi

@@ -1,0 +1,46 @@
+#pragma once
+// fsi-mesh: all that is worth knowing of a mesh before a run, and its other form.
+
+#include <string>
+#include <vector>
+
+#include "libfsi/core/run.hpp"
+#include "libfsi/mesh/quality.hpp"
+#include "libfsi/operators/face_weights.hpp"
+
+namespace fsi {
+
+/// What the solver does about the cells of a mesh, by owned cell: the largest of its internal
+/// faces' upwind shares beta and implicit shares theta_f (operators/face_weights.hpp), and the
+/// Courant rate of a flow of speed 1 along the axis that makes it largest,
+/// max_k sum_f |S_f . e_k| / (2 V).
+struct Treatment {
+  std::vector<Real> beta, theta, rate;
+  Real beta_mean = 0, theta_mean = 0;           ///< over the internal faces of all ranks
+  GlobalIndex n_internal = 0, n_irregular = 0;  ///< internal faces of all ranks
+};
+
+/// Collective.
+Treatment treatment(const Mesh& mesh, const FaceWeights& weights);
+
+/// A patch as a whole.
+struct PatchFigures {
+  GlobalIndex faces = 0;
+  Real area = 0;
+  Vec3 normal{};      ///< outward, of the sum of the area vectors; zero where they cancel
+  Real degrees = 0;   ///< largest angle between a face's normal and that
+  bool flat = false;  ///< all faces lie in one plane, to 1e-6 of the patch's size
+};
+
+/// Collective.
+PatchFigures patch_figures(const Mesh& mesh, const Patch& patch);
+
+/// Collective. Reads the mesh file and prints its report. Options: -mesh_periodic, -walls, -worst,
+/// -worst_file. Errors: Error{input}.
+RunStatus check_mesh_file(const std::string& file);
+
+/// Collective. fsi-mesh convert: the gmsh file as one that all ranks read side by side. Option:
+/// -mesh_periodic. Errors: Error{input}, Error{io}.
+RunStatus convert_mesh_file(const std::string& from, const std::string& to);
+
+}  // namespace fsi

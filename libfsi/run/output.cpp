@@ -1,0 +1,333 @@
+#include "libfsi/run/output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "libfsi/analysis/measures.hpp"
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/core/signals.hpp"
+#include "libfsi/io/manifest.hpp"
+
+namespace fsi {
+namespace {
+
+/// `text` of rank 0 decides for all.
+bool agreed(bool holds) { return broadcast(holds ? "yes" : "") == "yes"; }
+
+/// Rank 0. summary.json, where it can be written; else what it was before.
+void put_text(const std::string& directory, const std::string& text) {
+  io::replace_file(directory + "/summary.json", {std::as_bytes(std::span(text))}, io::Durable::no);
+}
+
+}  // namespace
+
+Output::Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver)
+    : case_(setup),
+      options_(options),
+      solver_(solver),
+      driver_(driver),
+      simulated_(simulated(options)),
+      lock_(io::make_directory(setup.output.directory)),
+      checkpoints_(setup.output.directory, solver.mesh()),
+      record_(setup.solid.name == "torus"),
+      samples_(setup.output.sample_interval),
+      field_(setup.output.field_interval),
+      checkpoint_(setup.output.checkpoint_interval) {
+  if (setup.output.restart) {
+    go_on_from_checkpoint();
+  } else {
+    checkpoints_.clear();
+    checkpoint_.resume(0);  // the start needs none
+  }
+  first_step_ = row_step_ = solver_.state().step;
+  forecast_ = Forecast(solver_.state().t);
+  saving([this] { open(); });
+  std::string line = "limits on dt:";
+  for (const Limit& limit : limits(solver_, setup.time)) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), " %s %.3g", limit.name.c_str(), limit.dt);
+    line += limit.dt < 1e300 ? text.data() : " " + limit.name + " none";
+  }
+  if (rank() == 0) std::printf("%s\n", line.c_str());
+}
+
+Output::~Output() {
+  if (finished_ || rank() != 0) return;
+  if (message_.empty()) message_ = "ended by an error that standard error tells";
+  put_text(case_.output.directory, summary("failed"));
+}
+
+/// A file that cannot be written ends the run, but not without a checkpoint and a word.
+void Output::saving(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const Error& error) {
+    const std::string& failure = solver_.report().failure;
+    message_ = (failure.empty() ? "" : failure + "; ") + error.what() + rescue(error.kind());
+    if (rank() == 0) put_text(case_.output.directory, summary("failed"));
+    finished_ = true;
+    throw Error(error.kind(), message_);
+  }
+}
+
+/// Whether a checkpoint holds the state; it may have been lost since.
+bool Output::saved() const {
+  return saved_step_ == solver_.state().step && agreed(std::ifstream(checkpoints_.file()).good());
+}
+
+/// Saves the state, if that is possible and worth it; returns what to say of it. Only where all
+/// ranks fail alike, which errors of these kinds do.
+std::string Output::rescue(ErrorKind kind) {
+  if (kind != ErrorKind::io && kind != ErrorKind::numerics) return "";
+  if (solver_.state().step == first_step_) return "";
+  try {
+    io::make_directory(case_.output.directory);  // it may be what was lost
+    if (!saved()) write_checkpoint();
+  } catch (const Error&) {
+    // The first error is the one to tell.
+  }
+  return where();
+}
+
+std::string Output::where() const {
+  return saved() ? "; the state is in \"" + checkpoints_.file() + "\""
+                 : "; the state could not be saved";
+}
+
+void Output::go_on_from_checkpoint() {
+  const std::string now = simulated_;
+  checkpoints_.read(snapshot());
+  const std::string notice = differences(simulated_, now);
+  simulated_ = now;
+  solver_.resume();
+  saved_step_ = solver_.state().step;
+  samples_.resume(solver_.state().t, samples_text_);
+  for (Schedule* event : {&field_, &checkpoint_}) event->resume(solver_.state().t);
+  if (rank() != 0) return;
+  if (!notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
+  std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
+              static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
+}
+
+io::Snapshot Output::snapshot() {
+  std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
+  if (const std::optional<Body>& body = solver_.body())
+    identity +=
+        body->semi_implicit() ? " kinematics=log_conformation" : " kinematics=left_cauchy_green";
+  io::Snapshot all(identity);
+  all.add("simulated", &simulated_);
+  solver_.list(all);
+  all.add("rejected_steps", &solver_.report().rejected);
+  samples_text_ = samples_.text();
+  all.add("rows", &samples_text_);
+  if (solver_.body()) record_.list(all);
+  return all;
+}
+
+void Output::open() {
+  io::write_text(case_.output.directory + "/run.yaml", options_.yaml());
+  open_tables();
+  io::write_text(case_.output.directory + "/summary.json", summary("failed"));
+}
+
+void Output::open_tables() {
+  const std::string& directory = case_.output.directory;
+  const bool restart = case_.output.restart;
+  const Real t = restart ? solver_.state().t : -std::numeric_limits<Real>::infinity();
+  const Real t_row = restart ? std::max(t, samples_.last(t)) : t;
+  const SolidRecord before = record_;
+  std::vector<Row> first = rows({}, 0, 0);
+  flow_.emplace(directory + "/flow.csv", names(first[0].entries), t_row);
+  if (solver_.body()) solid_.emplace(directory + "/solid.csv", names(first[1].entries), t_row);
+  if (restart) {
+    record_ = before;  // it must be found as it was
+  } else {
+    if (solver_.body()) solid_->row(values(first[1].entries));
+    samples_.hold(std::move(first));
+  }
+  if (case_.output.field_interval <= 0) return;
+  fields_.emplace(directory, solver_.mesh(), t);
+  // With a restart the fields of its time may be what could not be written.
+  if (field_.due(solver_.state().t) || field_.at(solver_.state().t)) write_fields();
+}
+
+bool Output::go_on() {
+  const Signal signal = pending_signal();
+  const Real wall = case_.output.wall_seconds_max;
+  if (signal == Signal::checkpoint) write_checkpoint();
+  interrupted_ = signal == Signal::end || (wall > 0 && global_max(watch_.seconds()) > wall);
+  const bool empty = solver_.body() && solver_.body()->gone != 0;
+  if (empty && case_.output.end_when_empty) return false;
+  return !interrupted_ && solver_.report().failure.empty();
+}
+
+Real Output::next_event() const {
+  const Real t = solver_.state().t;
+  return std::min({samples_.next_event(t), field_.next(t), checkpoint_.next(t)});
+}
+
+Limit Output::count(const Limit& limit, Real dt) {
+  Limit taken = limit;
+  if (solver_.report().held_back) {
+    taken.name = "retry";
+  } else if (dt < limit.dt * (1 - 1e-9)) {
+    taken.name = "event";
+  }
+  ++limits_[taken.name];
+  return taken;
+}
+
+void Output::after_step(const Limit& asked, Real dt) {
+  if (solver_.report().failure.empty()) saving([&] { write_due(asked, dt); });
+}
+
+void Output::write_due(const Limit& asked, Real dt) {
+  const Limit limit = count(asked, dt);
+  const State& s = solver_.state();
+  if (s.step == first_step_ + 1) options_.check_unused();
+  tell_of_leaving();
+  write_rows(limit, dt);
+  if (field_.due(s.t)) write_fields();
+  if (checkpoint_.due(s.t)) write_checkpoint();
+  constexpr Real seconds_between = 1;
+  if (!agreed(watch_.seconds() > progress_at_ + seconds_between || s.step == first_step_ + 1))
+    return;
+  write_progress(limit, dt);
+  progress_at_ = watch_.seconds();
+}
+
+/// A word when the solid begins to leave the mesh, and one when nothing of it is left.
+void Output::tell_of_leaving() {
+  const std::optional<Body>& body = solver_.body();
+  if (!body || body->volume_out <= 0) return;
+  const bool begins = !leaving_, ends = body->gone != 0 && !left_;
+  leaving_ = true, left_ = body->gone != 0;
+  if (rank() != 0) return;
+  if (begins)
+    std::fprintf(
+        stderr,
+        "fsi: notice: solid leaves the mesh from t = %g on: column volume_out of solid.csv\n",
+        solver_.state().t);
+  if (ends)
+    std::fprintf(stderr, "fsi: notice: the last of the solid left the mesh at t = %g\n",
+                 solver_.state().t);
+}
+
+/// Of both tables, or of flow.csv alone.
+std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
+  const State& s = solver_.state();
+  const Real t_shape = solver_.body() ? solver_.body()->t : s.t;
+  std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
+  if (s.step == 0)
+    for (Entry& entry : all[0].entries)
+      if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
+  if (solver_.body() && solver_.body()->gone == 0)
+    all.push_back({s.t, t_shape, record_.row(solver_)});
+  return all;
+}
+
+void Output::write_rows(const Limit& limit, Real dt) {
+  const State& s = solver_.state();
+  const std::vector<Real> times = samples_.due(s.t);
+  // The clock looks two steps ahead, and the next one is hardly longer by half; where it were, it
+  // would end at the row.
+  constexpr Real steps_ahead = 3;
+  const bool near = samples_.near(s.t, steps_ahead * std::max(dt, limit.dt));
+  std::vector<Row> now;
+  if (near || !times.empty()) {
+    const Real seconds = watch_.seconds();
+    const auto steps = static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
+    now = rows(limit, dt, (seconds - rows_at_) / steps);
+    if (!times.empty()) rows_at_ = seconds, row_step_ = s.step;
+  }
+  for (const Real t : times) {
+    flow_->row(samples_.row(0, now[0], t));
+    if (now.size() > 1) solid_->row(samples_.row(1, now[1], t));
+  }
+  samples_.hold(near ? std::move(now) : std::vector<Row>{});
+}
+
+void Output::write_fields() {
+  solver_.synchronise();
+  const Mesh& mesh = solver_.mesh();
+  const State& s = solver_.state();
+  CellField<Real> Q(mesh);
+  analysis::q_criterion(Q, solver_.velocity_gradient());
+  std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
+  std::optional<CellField<SymTensor>> B;
+  if (const std::optional<Body>& body = solver_.body()) {
+    B.emplace(B_field(*body, mesh));
+    fields.push_back(io::named("alpha", body->alpha));
+    fields.push_back(io::named("B", *B));
+  }
+  fields_->write(s.t, fields);
+  fields_at_ = s.t;
+}
+
+void Output::write_checkpoint() {
+  if (checkpoints_.write(snapshot())) saved_step_ = solver_.state().step;
+}
+
+void Output::write_progress(const Limit& limit, Real dt) {
+  const State& s = solver_.state();
+  divergence_ = flow::divergence_max(s.phi, solver_.mesh());
+  const Real courant = dt / solver_.advective_dt(1);
+  if (rank() != 0) return;
+  const Real left = forecast_.seconds_left(watch_.seconds(), s.t, case_.time.end);
+  std::printf(
+      "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
+      "%s\n",
+      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_,
+      record_.drift(), solver_.report().pressure_iterations, solver_.report().velocity_iterations,
+      Forecast::text(left).c_str());
+  std::fflush(stdout);
+}
+
+std::string Output::summary(const std::string& status) const {
+  io::Summary s;
+  s.case_name = driver_;
+  s.status = status;
+  s.message = message_.empty() ? solver_.report().failure : message_;
+  s.cells = solver_.mesh().n_global;
+  s.ranks = ranks();
+  s.steps = solver_.state().step;
+  s.first_step = first_step_;
+  s.rejected_steps = solver_.report().rejected;
+  s.t = solver_.state().t;
+  s.wall_seconds = watch_.seconds();
+  s.divergence_max = divergence_;
+  s.solid_volume_drift = record_.drift();
+  s.phases = solver_.profile().seconds();
+  s.limits = limits_;
+  for (const auto& [reason, number] : solver_.report().rejections)
+    s.rejections[reason] = static_cast<Real>(number);
+  return io::json(s);
+}
+
+RunStatus Output::finish() {
+  const std::string& failure = solver_.report().failure;
+  const bool complete = failure.empty() && !interrupted_;
+  divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
+  saving([&] {
+    if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
+    if ((!complete || case_.output.checkpoint_interval > 0) && !saved()) write_checkpoint();
+    if (failure.empty() && interrupted_ && !saved())
+      throw Error(ErrorKind::io, "the run was interrupted and its checkpoint could not be written");
+    const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
+    io::write_text(case_.output.directory + "/summary.json", summary(status));
+  });
+  finished_ = true;
+  if (!failure.empty()) throw Error(ErrorKind::numerics, failure + where());
+  if (rank() == 0)
+    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n",
+                interrupted_ ? "interrupted" : "complete", solver_.state().t,
+                static_cast<long long>(solver_.state().step), watch_.seconds(),
+                case_.output.directory.c_str());
+  return interrupted_ ? RunStatus::interrupted : RunStatus::complete;
+}
+
+}  // namespace fsi

@@ -1,0 +1,91 @@
+#pragma once
+// What a run leaves behind: tables, fields, checkpoints, summary, progress line.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/clock.hpp"
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/run.hpp"
+#include "libfsi/io/checkpoint.hpp"
+#include "libfsi/io/fields.hpp"
+#include "libfsi/io/file.hpp"
+#include "libfsi/io/table.hpp"
+#include "libfsi/run/case.hpp"
+#include "libfsi/run/records.hpp"
+#include "libfsi/run/samples.hpp"
+
+namespace fsi {
+
+/// Watches a Solver and writes the files of a run. Invariant: from construction on, summary.json
+/// says how the run stands; it reads "failed" until finish().
+class Output {
+ public:
+  /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
+  /// earlier one left there under the same names; with -restart the solver's state, the tables and
+  /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
+  /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
+  /// directory, there is nothing to go on from, or it is of another driver or kinematics.
+  Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver);
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  /// Whether the run may go on; false once a step failed for good, wall time is up or the end was
+  /// asked for.
+  bool go_on();
+  /// Time of the next event that a step must hit.
+  Real next_event() const;
+  /// Collective. After every step of length dt, 0 if it failed: writes what is due. Errors: those
+  /// of the files, once a checkpoint is written and summary.json tells them, as far as that can be.
+  void after_step(const Limit& limit, Real dt);
+  /// Collective. Last files; returns how the run ended. Errors: Error{numerics} with the reason
+  /// where the last step failed; a checkpoint of the state before it is there. Error{io} where a
+  /// file, or the checkpoint of an interrupted run, could not be written.
+  RunStatus finish();
+
+ private:
+  io::Snapshot snapshot();
+  void go_on_from_checkpoint();
+  void saving(const std::function<void()>& write);
+  std::string rescue(ErrorKind kind);
+  bool saved() const;
+  std::string where() const;
+  void open();
+  void open_tables();
+  void write_due(const Limit& asked, Real dt);
+  void tell_of_leaving();
+  void write_rows(const Limit& limit, Real dt);
+  std::vector<Row> rows(const Limit& limit, Real dt, Real wall_per_step);
+  Limit count(const Limit& limit, Real dt);
+  void write_fields();
+  void write_checkpoint();
+  void write_progress(const Limit& limit, Real dt);
+  std::string summary(const std::string& status) const;
+
+  const Case& case_;
+  const Options& options_;
+  Solver& solver_;
+  std::string driver_, simulated_;
+  io::Lock lock_;
+  io::Checkpoint checkpoints_;
+  SolidRecord record_;
+  Samples samples_;
+  std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
+  Schedule field_, checkpoint_;
+  std::optional<io::Table> flow_, solid_;
+  std::optional<io::FieldWriter> fields_;
+  Stopwatch watch_;
+  Forecast forecast_;
+  Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
+  std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
+  std::map<std::string, Real> limits_;  // steps by what set their length
+  std::string message_;                 // why the run ended, where no step failed
+  bool interrupted_ = false, finished_ = false;
+  bool leaving_ = false, left_ = false;  // what was said of the solid
+};
+
+}  // namespace fsi

@@ -1,0 +1,255 @@
+#include "libfsi/run/records.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string_view>
+
+#include "libfsi/analysis/measures.hpp"
+#include "libfsi/analysis/orientation.hpp"
+#include "libfsi/analysis/ring.hpp"
+#include "libfsi/analysis/surface.hpp"
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/run/taylor.hpp"
+
+namespace fsi {
+namespace {
+
+const Patch* find(const Mesh& mesh, const std::string& name) {
+  const auto at = std::ranges::find(mesh.patches, name, &Patch::name);
+  return at == mesh.patches.end() ? nullptr : &*at;
+}
+
+Real kinetic_energy(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    sum.add(solver.physics().rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
+  return sum.total();
+}
+
+/// Length of a periodic channel along its axis; 0 where the mesh has no period along it.
+Real period(const Solver& solver) {
+  Real length = 0;
+  for (const Vec3& translation : solver.mesh().translation)
+    length = std::max(length, std::abs(dot(translation, solver.axis())));
+  return length;
+}
+
+Real flow_rate(const Solver& solver, const Patch& patch) {
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(solver.state().phi[f]);
+  return sum.total();
+}
+
+Real flow_rate(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  const Real length = period(solver);
+  if (length > 0) return solver.mean_velocity() * mesh.total_volume / length;
+  const Patch* outlet = find(mesh, "outlet");
+  if (outlet == nullptr) return 0;
+  return flow_rate(solver, *outlet);
+}
+
+Real mean_pressure(const Solver& solver, const Patch& patch) {
+  const Mesh& mesh = solver.mesh();
+  Sum p, area;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Real size = norm(mesh.Sf[f]);
+    p.add(size * solver.p_b()[f - mesh.n_internal]), area.add(size);
+  }
+  return p.total() / area.total();
+}
+
+Real pressure_drop(const Solver& solver) {
+  const Patch *inlet = find(solver.mesh(), "inlet"), *outlet = find(solver.mesh(), "outlet");
+  if (inlet == nullptr || outlet == nullptr) return solver.driving_gradient() * period(solver);
+  return mean_pressure(solver, *inlet) - mean_pressure(solver, *outlet);
+}
+
+Real area(const Patch& patch, const Mesh& mesh) {
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
+  return sum.total();
+}
+
+Real mean_pressure_beside(const Solver& solver, const Patch& patch) {
+  const Mesh& mesh = solver.mesh();
+  Sum p;
+  for (Index f = patch.begin; f < patch.end; ++f)
+    p.add(norm(mesh.Sf[f]) * solver.state().p[mesh.owner[f]]);
+  return p.total() / area(patch, mesh);
+}
+
+/// Columns of each patch that fluid goes through, and the largest Reynolds number there.
+void add_openings(std::vector<Entry>& row, const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  Real velocity_length = 0;
+  bool any = false;
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
+    const Patch& patch = mesh.patches[i];
+    const Condition& condition = solver.conditions()[i];
+    const bool open = fixes_pressure(condition);
+    if (!open && !prescribes_flow(condition)) continue;
+    any = true;
+    const Real Q = flow_rate(solver, patch), A = area(patch, mesh);
+    row.push_back({"flow_rate_" + patch.name, Q});
+    row.push_back({"mean_pressure_" + patch.name,
+                   open ? solver.opening_pressure(patch.name) : mean_pressure_beside(solver, patch),
+                   Course::pressure});
+    const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
+    velocity_length = std::max(velocity_length, std::abs(Q) / A * D);
+  }
+  if (any)
+    row.push_back({"reynolds", solver.physics().rho * velocity_length / solver.physics().mu_f});
+}
+
+Real pressure_span(const Solver& solver) {
+  Real low = std::numeric_limits<Real>::max(), high = -low;
+  for (const Real p : solver.state().p.owned()) low = std::min(low, p), high = std::max(high, p);
+  return global_max(high) - global_min(low);
+}
+
+void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v,
+         Course course = Course::smooth) {
+  for (int i = 0; i < 3; ++i) row.push_back({columns[static_cast<std::size_t>(i)], v[i], course});
+}
+
+Real aspect(const analysis::Ellipse& e) { return e.aspect(); }
+
+void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
+  row.push_back({"aspect_forward", aspect(ring.forward)});
+  row.push_back({"aspect_back", aspect(ring.back)});
+  row.push_back({"aspect_right", aspect(ring.right)});
+  row.push_back({"aspect_left", aspect(ring.left)});
+  row.push_back({"aspect_inner", aspect(ring.inner)});
+  row.push_back({"aspect_outer", aspect(ring.outer)});
+  row.push_back({"bending_meridian", ring.bending_meridian});
+  row.push_back({"bending_prime", ring.bending_prime});
+}
+
+/// Extremes of det grad xi where solid fills half a cell or more: how far the map's own volume
+/// went.
+void add_map(std::vector<Entry>& row, const solid::ReferenceMap& map, const CellField<Real>& alpha,
+             const Mesh& mesh) {
+  Real low = std::numeric_limits<Real>::max(), high = -low;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (!(alpha[c] >= solid::alpha_known)) continue;
+    low = std::min(low, map.volume_ratio(c)), high = std::max(high, map.volume_ratio(c));
+  }
+  row.push_back({"map_det_min", global_min(low)});
+  row.push_back({"map_det_max", global_max(high)});
+}
+
+/// Number of a limit in flow.csv.
+Real limit_code(const std::string& name) {
+  constexpr std::array<std::string_view, 9> names{
+      "none", "fixed", "advective", "elastic", "start", "step_max", "event", "retry", "strain"};
+  const auto at = std::ranges::find(names, name);
+  FSI_ASSERT(at != names.end());
+  return static_cast<Real>(at - names.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> names(const std::vector<Entry>& row) {
+  std::vector<std::string> result;
+  for (const Entry& entry : row) result.push_back(entry.name);
+  return result;
+}
+
+std::vector<Real> values(const std::vector<Entry>& row) {
+  std::vector<Real> result;
+  for (const Entry& entry : row) result.push_back(entry.value);
+  return result;
+}
+
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
+  CellField<SymTensor> B(mesh, identity());
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    if (body.alpha[c] > 0) B[c] = body.B_of(c);
+  return B;
+}
+
+std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
+  const Mesh& mesh = solver.mesh();
+  const std::optional<Body>& body = solver.body();
+  const Real elastic =
+      body ? analysis::elastic_energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh)
+           : 0;
+  std::vector<Entry> row{
+      {"t", solver.state().t},
+      {"dt", dt, Course::step},
+      {"dt_limit", limit.dt, Course::step},
+      {"limit", limit_code(limit.name), Course::step},
+      {"courant", dt / solver.advective_dt(1), Course::step},
+      {"pressure_gradient", solver.driving_gradient(), Course::pressure},
+      {"pressure_drop", pressure_drop(solver), Course::pressure},
+      {"pressure_span", pressure_span(solver), Course::pressure},
+      {"flow_rate", flow_rate(solver)},
+      {"mean_velocity", solver.mean_velocity()},
+      {"divergence_max", flow::divergence_max(solver.state().phi, mesh), Course::step},
+      {"kinetic_energy", kinetic_energy(solver)},
+      {"elastic_energy", elastic, Course::shape},
+      {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
+      {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
+      {"wall_per_step", wall_per_step, Course::step}};
+  add_openings(row, solver);
+  return row;
+}
+
+std::vector<Entry> SolidRecord::row(const Solver& solver) {
+  const Body& body = *solver.body();
+  const Mesh& mesh = solver.mesh();
+  tracker_.started = started_ != 0;
+  const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh);
+  started_ = tracker_.started ? 1 : 0;
+  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
+  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, axis_);
+  axis_ = o.n;
+  const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
+  if (volume_0_ == 0) volume_0_ = m.volume;
+  drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
+  std::vector<Entry> row{{"t", solver.state().t}};
+  add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
+  add(row, {"ux", "uy", "uz"}, m.velocity);
+  row.push_back({"volume", m.volume});
+  row.push_back({"volume_out", body.volume_out});
+  add(row, {"nx", "ny", "nz"}, o.n, Course::shape);
+  row.push_back({"angle", o.angle, Course::shape});
+  row.push_back({"det_B_min", h.det_min});
+  row.push_back({"det_B_max", h.det_max});
+  row.push_back({"min_eig_B", h.eigenvalue_min});
+  row.push_back({"overshoot", body.advected.remaining, Course::step});
+  const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
+  row.push_back({"taylor", shape.deformation});
+  row.push_back({"taylor_angle", shape.angle, Course::half_turn});
+  if (const auto* map = std::get_if<solid::ReferenceMap>(&body.kinematics))
+    add_map(row, *map, body.alpha, mesh);
+  if (!ring_ || mesh.dim == 2) return row;
+  const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
+  zeta_ = frame.zeta;
+  add_ring(row, analysis::ring(surface, tracker_.home, frame));
+  return row;
+}
+
+void SolidRecord::list(io::Snapshot& snapshot) {
+  const auto add_vector = [&](const std::string& name, Vec3& v) {
+    snapshot.add(name + "_x", &v.x);
+    snapshot.add(name + "_y", &v.y);
+    snapshot.add(name + "_z", &v.z);
+  };
+  add_vector("tracker_home", tracker_.home);
+  add_vector("tracker_travelled", tracker_.travelled);
+  add_vector("tracker_middle", tracker_.middle);
+  add_vector("axis", axis_);
+  add_vector("zeta", zeta_);
+  snapshot.add("tracker_started", &started_);
+  snapshot.add("volume_0", &volume_0_);
+  snapshot.add("drift", &drift_);
+}
+
+}  // namespace fsi

@@ -1,0 +1,54 @@
+#pragma once
+// The rows of flow.csv and solid.csv.
+
+#include <string>
+#include <vector>
+
+#include "libfsi/analysis/motion.hpp"
+#include "libfsi/core/clock.hpp"
+#include "libfsi/io/checkpoint.hpp"
+#include "libfsi/run/case.hpp"
+#include "libfsi/run/samples.hpp"
+
+namespace fsi {
+
+std::vector<std::string> names(const std::vector<Entry>& row);
+std::vector<Real> values(const std::vector<Entry>& row);
+
+/// Collective. What a row of flow.csv tells of the flow after a step of length dt:
+/// pressure_drop between the patches inlet and outlet, S times the period in a periodic channel;
+/// pressure_span = max p - min p; flow_rate through the patch `outlet`, the section of a periodic
+/// channel; us and dt as they are; limit: what set dt, 0 nothing, 1 -time_step, 2 advective, 3
+/// elastic, 4 start, 5 -time_step_max, 6 an event to be hit (a file or the end), 7 growing again
+/// after a rejected step, 8 strain of the solid. Of each patch NAME that fluid goes through
+/// flow_rate_NAME, out of the domain, and mean_pressure_NAME: at an opening what is given there,
+/// behind its load's answer, in the middle of the step; where the flow is prescribed that of the
+/// cells beside it. reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in
+/// 2-D the width) of the patch where it is largest.
+std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
+
+/// Follows the solid from row to row. What it remembers is part of a checkpoint.
+class SolidRecord {
+ public:
+  /// ring: whether the shape is a torus, whose deformation is measured too.
+  explicit SolidRecord(bool ring) : ring_(ring) {}
+
+  /// Collective. A row of solid.csv: centroid, velocity and `taylor` at the state's time, the shape
+  /// at that of the solid.
+  std::vector<Entry> row(const Solver& solver);
+  /// Relative change of volume since the start, at the last row.
+  Real drift() const { return drift_; }
+  void list(io::Snapshot& snapshot);
+
+ private:
+  bool ring_;
+  analysis::Tracker tracker_;
+  std::int64_t started_ = 0;  // of the tracker, as a checkpoint holds it
+  Vec3 axis_, zeta_;
+  Real volume_0_ = 0, drift_ = 0;
+};
+
+/// B of every cell: the unit tensor outside the solid.
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
+
+}  // namespace fsi

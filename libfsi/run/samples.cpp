@@ -1,0 +1,103 @@
+#include "libfsi/run/samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+
+namespace fsi {
+namespace {
+
+/// Where t lies on the way from one time to another; 1 where they are the same.
+Real part(Real t, Real from, Real to) { return to > from ? (t - from) / (to - from) : 1; }
+
+/// (1 - w) before + w after, as it is for that column.
+Real mixed(Real before, const Entry& after, Real w, Real w_shape) {
+  if (after.course == Course::step || !std::isfinite(before)) return after.value;
+  if (after.course == Course::shape) w = w_shape;
+  if (after.course != Course::half_turn) return (1 - w) * before + w * after.value;
+  const Real way = std::remainder(after.value - before, 180);
+  const Real angle = after.value - (1 - w) * way;
+  return angle > 90 ? angle - 180 : angle <= -90 ? angle + 180 : angle;
+}
+
+/// Makes the columns nx, ny, nz a unit vector again, and `angle` that to the x axis in degrees.
+void set_axis(std::vector<Real>& values, const std::vector<Entry>& entries) {
+  const auto at = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(entries, name, &Entry::name) -
+                                    entries.begin());
+  };
+  const std::size_t n = at("nx"), angle = at("angle");
+  if (angle >= values.size() || n + 2 >= values.size()) return;
+  const Vec3 axis{values[n], values[n + 1], values[n + 2]};
+  const Real size = norm(axis);
+  if (!(size > 0)) return;
+  for (int i = 0; i < 3; ++i) values[n + static_cast<std::size_t>(i)] = axis[i] / size;
+  values[angle] = std::acos(std::min(std::abs(axis.x) / size, Real{1})) * (180 / std::numbers::pi);
+}
+
+}  // namespace
+
+std::vector<Real> between(const Row& before, const Row& after, Real t) {
+  const bool whole = before.entries.size() == after.entries.size();
+  const Real w = std::clamp(part(t, before.t, after.t), Real{0}, Real{1});
+  const Real w_shape = part(t, before.t_shape, after.t_shape);
+  std::vector<Real> values;
+  for (std::size_t i = 0; i < after.entries.size(); ++i)
+    values.push_back(whole ? mixed(before.entries[i].value, after.entries[i], w, w_shape)
+                           : after.entries[i].value);
+  if (whole) set_axis(values, after.entries);
+  values[0] = t;
+  return values;
+}
+
+std::vector<Real> Samples::due(Real t) {
+  return each_step_ ? std::vector<Real>{t} : every_.reached(t);
+}
+
+Real Samples::next_event(Real t) const {
+  return each_step_ || !held_.empty() ? std::numeric_limits<Real>::max() : every_.next(t);
+}
+
+std::vector<Real> Samples::row(std::size_t i, const Row& now, Real t) const {
+  return between(i < held_.size() ? held_[i] : Row{}, now, t);
+}
+
+std::string Samples::text() const {
+  std::string text;
+  const auto add = [&](Real value) {
+    std::array<char, 32> word{};
+    std::snprintf(word.data(), word.size(), "%.17g ", value);
+    text += word.data();
+  };
+  for (const Row& row : held_) {
+    add(static_cast<Real>(row.entries.size())), add(row.t), add(row.t_shape);
+    // What is of the step alone tells of the machine too; it is never taken from here.
+    for (const Entry& entry : row.entries) add(entry.course == Course::step ? 0 : entry.value);
+  }
+  return text.empty() ? "none" : text;
+}
+
+void Samples::resume(Real t, const std::string& text) {
+  every_.resume(t);
+  held_.clear();
+  const char* at = text.c_str();
+  const auto next = [&] {
+    char* end = nullptr;
+    const Real value = std::strtod(at, &end);
+    const bool found = end != at;
+    at = end;
+    return found ? value : -1;
+  };
+  if (text == "none") return;
+  for (Real size = next(); size > 0; size = next()) {
+    Row& row = held_.emplace_back();
+    row.t = next(), row.t_shape = next();
+    for (Real i = 0; i < size; ++i) row.entries.push_back({"", next()});
+  }
+}
+
+}  // namespace fsi

@@ -1,0 +1,71 @@
+#pragma once
+// Rows of tables at given times, from those at the ends of the steps around them.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/clock.hpp"
+
+namespace fsi {
+
+/// How a column runs between two rows.
+enum class Course {
+  smooth,     ///< linear in the time of the flow
+  shape,      ///< linear in that of the solid, which stands half a step off
+  pressure,   ///< smooth, but not known before the first step
+  step,       ///< of the step: the later row's
+  half_turn,  ///< smooth, degrees of a line's direction: the shorter way round
+};
+
+/// A number under the name of its column.
+struct Entry {
+  std::string name;
+  Real value;
+  Course course = Course::smooth;
+};
+
+/// A row and the times that its columns are of; the first column is t.
+struct Row {
+  Real t = 0, t_shape = 0;
+  std::vector<Entry> entries;
+};
+
+/// The row at time t from rows before and after it: an error of second order in their distance. The
+/// columns nx, ny, nz stay a unit vector and `angle` its own. A value of `before` that is not
+/// finite counts as unknown: that of `after` is taken.
+std::vector<Real> between(const Row& before, const Row& after, Real t);
+
+/// Tells when rows are due, at every multiple of an interval (0: at the end of every step), and
+/// makes them without the help of the steps. Invariant: what is held are the rows of the last
+/// state, one a table, or nothing. What it holds is part of a checkpoint.
+class Samples {
+ public:
+  explicit Samples(Real interval) : each_step_(interval <= 0), every_(interval) {
+    every_.resume(0);
+  }
+
+  /// The times of rows in the step that ends at t, each told once.
+  std::vector<Real> due(Real t);
+  /// Whether a row may fall into a next step no longer than `reach`: then hold().
+  bool near(Real t, Real reach) const { return each_step_ || every_.next(t) <= t + reach; }
+  /// Time at which the step from t must end for the sake of the rows: none while rows are held.
+  Real next_event(Real t) const;
+  /// The row of table `i` at t, a time due in the step that led from the rows held to `now`.
+  std::vector<Real> row(std::size_t i, const Row& now, Real t) const;
+  /// Holds these rows; none: holds nothing.
+  void hold(std::vector<Row> rows) { held_ = std::move(rows); }
+
+  /// For a restart at t with what text() told.
+  void resume(Real t, const std::string& text);
+  std::string text() const;
+  /// Time of the last row due up to t.
+  Real last(Real t) const { return each_step_ ? t : every_.last(t); }
+
+ private:
+  bool each_step_;
+  Schedule every_;
+  std::vector<Row> held_;
+};
+
+}  // namespace fsi

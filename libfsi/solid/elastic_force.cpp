@@ -1,0 +1,111 @@
+#include "libfsi/solid/elastic_force.hpp"
+
+#include <cmath>
+
+namespace fsi::solid {
+namespace {
+
+/// tau . S on a boundary face; on a plane of symmetry its part along the normal.
+Vec3 traction(const SymTensor& tau, const Vec3& S, bool mirror) {
+  const Vec3 t = dot(tau, S);
+  return mirror ? (dot(t, S) / norm2(S)) * S : t;
+}
+
+}  // namespace
+
+ElasticForce::ElasticForce(const Mesh& mesh, const FaceWeights& weights, Real G)
+    : mesh_(mesh), G_(G), jump_force_(mesh, weights) {}
+
+void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
+                                     const ElasticState& solid, const FaceWeights& weights,
+                                     const Band& band, const CellField<SymGradient>& grad) const {
+  const CellField<SymTensor>& B = solid.B;
+  const CellField<Real>& alpha = solid.alpha;
+  for (const Index f : band.faces()) {
+    const Index P = mesh_.owner[f];
+    const Vec3 d = mesh_.d[f], n = d / norm(d);
+    if (f >= mesh_.n_internal) {
+      // tau_b = tau_P + grad tau . d
+      const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
+      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
+      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aB_b), mesh_.Sf[f], mirror);
+      continue;
+    }
+    const Index N = mesh_.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
+    rhie_chow_source[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
+    // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = alpha B
+    SymTensor T = (1 - lambda) * alpha[P] * B[P] + lambda * alpha[N] * B[N];
+    if (weights.place[f] >= 0)
+      T +=
+          (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
+    const Vec3 t = dot(G_ * dev(T), mesh_.Sf[f]);
+    force[P] += (1 / mesh_.V[P]) * t;
+    force[N] -= (1 / mesh_.V[N]) * t;
+  }
+}
+
+void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
+                                const ElasticState& solid, const FaceWeights& weights,
+                                PressureStencil& pressure, const Band& band,
+                                const CellField<SymGradient>& grad) {
+  const CellField<SymTensor>& B = solid.B;
+  const CellField<Real>& alpha = solid.alpha;
+  jump_force_.clear();
+  for (const Index f : band.faces()) {
+    const Index P = mesh_.owner[f];
+    const Real a_f = (*solid.alpha_f)[f];
+    const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
+    if (f >= mesh_.n_internal) {
+      // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
+      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
+      const SymTensor tau = G_ * dev(B[P] + along(grad[P], d));
+      const Vec3& m = (*solid.normal)[f];
+      const Real s = dot(m, dot(tau, m));
+      force[P] += (1 / mesh_.V[P]) * (a_f * traction(tau, S, mirror) + ((alpha[P] - a_f) * s) * S);
+      continue;
+    }
+    const Index N = mesh_.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    const auto rise = [&](const Vec3& r) {
+      return (1 - lambda) * along(grad[P], r) + lambda * along(grad[N], r);
+    };
+    SymTensor T = (1 - lambda) * B[P] + lambda * B[N];
+    if (weights.place[f] >= 0) T += rise(weights.skew[f]);
+    const SymTensor tau = G_ * dev(T);
+    const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
+    const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);
+    // alpha_f (tau - s I) + alpha_c s I, and the jump that the pressure bears
+    force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
+    force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
+    jump_force_.add(f, jump, pressure.cells);
+    // what alpha dev B rises between the cells beyond the jump, less the mean of alpha grad dev B
+    const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
+                             (1 - lambda) * alpha[P] * along(grad[P], d) -
+                             lambda * alpha[N] * along(grad[N], d);
+    rhie_chow_source[f] = jump + dot(n, dot(G_ * dev(smooth), n));
+  }
+  jump_force_.apply(force, rhie_chow_source, pressure, band);
+}
+
+void ElasticForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
+                         const ElasticState& solid, const FaceWeights& weights,
+                         PressureStencil& pressure, const Band& band,
+                         CellField<SymGradient>& grad) {
+  for (const Index c : last_cells_) grad[c] = {};
+  last_cells_ = band.cells();
+  const bool sharp = solid.alpha_f != nullptr;
+  if (sharp)
+    gradient(grad, solid.B, pressure.cells, mesh_, band.core());
+  else
+    gradient(grad, solid.alpha, solid.B, pressure.cells, mesh_, band.cells());
+  mesh_.halo.update(grad, band.listed());
+  if (sharp)
+    add_cut_face(force, rhie_chow_source, solid, weights, pressure, band, grad);
+  else
+    add_cell_averaged(force, rhie_chow_source, solid, weights, band, grad);
+  mesh_.halo.update(force);
+}
+
+}  // namespace fsi::solid

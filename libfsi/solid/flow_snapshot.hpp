@@ -1,0 +1,49 @@
+#pragma once
+// What every kinematics of the solid is carried and strained by.
+
+#include <span>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/gradient.hpp"
+
+namespace fsi::solid {
+
+/// Derivatives of a symmetric tensor along x, y, z.
+struct SymGradient {
+  SymTensor x, y, z;
+};
+/// Change along the vector d.
+inline SymTensor along(const SymGradient& g, const Vec3& d) {
+  return d.x * g.x + d.y * g.y + d.z * g.z;
+}
+
+/// Gradient of T on the listed owned cells. stencil: without given boundary values, so that linear
+/// fields are exact beside boundaries as well.
+void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
+              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+/// The same of alpha T.
+void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
+              const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
+              std::span<const Index> cells);
+
+/// The boundary where the solid touches it.
+struct Contact {
+  const BoundaryField<Vec3>& u_b;
+  const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
+};
+
+/// The flow, frozen over a step of the solid.
+struct FlowSnapshot {
+  const FaceField<Real>& phi;
+  const CellField<Vec3>& u;
+  const CellField<Tensor>& L;      ///< velocity gradient
+  const GradientStencil& stencil;  ///< without given boundary values
+  const FaceWeights& weights;
+  /// What strains the solid's cells, owned (InterfaceGradient); none: L, u and phi do.
+  const CellField<Tensor>* strain = nullptr;
+  const Contact* contact = nullptr;  ///< none: nowhere
+  Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)
+  Real recovery = 0;                 ///< rate against the solid's viscosity, G / mu_s
+};
+
+}  // namespace fsi::solid

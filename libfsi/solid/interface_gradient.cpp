@@ -1,0 +1,145 @@
+#include "libfsi/solid/interface_gradient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/one_sided.hpp"
+#include "libfsi/solid/quadratic_fit.hpp"
+
+namespace fsi::solid {
+namespace {
+
+/// The velocity of one side: without what the kink adds to it in cut cells.
+struct OfOneSide {
+  const CellField<Vec3>& u;
+  const CellField<Vec3>& kink;
+  Vec3 operator[](Index c) const { return u[c] - kink[c]; }
+};
+
+/// The fit about c over the neighbours n with same(n), with their L where has_L(n).
+template <class Velocity, class Same, class HasL>
+std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
+                          const BoundaryField<Vec3>& u_b, const Same& same, const HasL& has_L,
+                          const Mesh& mesh, Index c) {
+  QuadraticFit quadratic(mesh.dim, mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]));
+  const Vec3 u_c = u[c];
+  for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
+    const Index n = mesh.cell_neighbours.index[k];
+    if (!same(n)) continue;
+    const Vec3 r = mesh.C[n] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[k]];
+    quadratic.add_value(r, u[n] - u_c);
+    if (has_L(n)) quadratic.add_gradient(r, L[n]);
+  }
+  for (const Index f : mesh.cell_faces[c])
+    if (f >= mesh.n_internal) quadratic.add_value(mesh.d[f], u_b[f - mesh.n_internal] - u_c);
+  return quadratic.gradient();
+}
+
+}  // namespace
+
+bool has_simplices(const Mesh& mesh) {
+  bool none = true;
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    none = none && static_cast<int>(mesh.cell_faces[c].size()) > mesh.dim + 1;
+  return !all_of_ranks(none);
+}
+
+void InterfaceGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
+                              const BoundaryField<Vec3>& u_b, const Cuts& cuts,
+                              std::span<const Index> cells) {
+  clear_kinks();
+  fit_cells(L, u, u_b, cuts.alpha, cells);
+  set_kinks(L, cuts, cells);
+  fit_cells(L, u, u_b, cuts.alpha, cells);
+}
+
+void InterfaceGradient::clear_kinks() {
+  for (const Index c : kinked_) kink_in_[c] = kink_out_[c] = {};
+  kinked_.clear();
+  mesh_.halo.update(kink_in_);
+  mesh_.halo.update(kink_out_);
+}
+
+void InterfaceGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
+                                  std::span<const Index> cells) {
+  for (const Index c : cells) {
+    const Vec3& n = cuts.normal[c];
+    if (norm2(n) == 0) continue;
+    Tensor in, out;
+    Real w_in = 0, w_out = 0;
+    for (const Index k : mesh_.cell_neighbours[c]) {
+      const Real alpha = cuts.alpha[k];
+      if (alpha >= alpha_known)
+        in += alpha * L[k], w_in += alpha;
+      else
+        out += (1 - alpha) * L[k], w_out += 1 - alpha;
+    }
+    if (!(w_in > 0 && w_out > 0)) continue;
+    const Vec3 jump = dot((1 / w_out) * out + (-1 / w_in) * in, n);
+    const Vec3 along = jump - dot(jump, n) * n;
+    kink_in_[c] = cuts.solid_side[c] * along;
+    kink_out_[c] = cuts.fluid_side[c] * along;
+    kinked_.push_back(c);
+  }
+  mesh_.halo.update(kink_in_);
+  mesh_.halo.update(kink_out_);
+}
+
+void InterfaceGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u,
+                                  const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                                  std::span<const Index> cells) {
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  const auto none = [](Index) { return false; };
+  const OfOneSide u_in{u, kink_in_}, u_out{u, kink_out_};
+  for (const Index c : last_deep_) deep_[c] = 0;
+  last_deep_.clear();
+  for (const Index c : cells) {
+    if (!known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known)) continue;
+    const auto whole = fit(L, u_in, u_b, known, none, mesh_, c);
+    if (!whole) continue;
+    L[c] = *whole;
+    deep_[c] = 1;
+    last_deep_.push_back(c);
+  }
+  mesh_.halo.update(deep_);
+  mesh_.halo.update(L);
+  const auto deep = [&](Index c) { return deep_[c] > 0; };
+  for (const Index c : cells) {
+    if (deep(c)) continue;
+    const bool in = known(c);
+    const auto same = [&](Index n) { return known(n) == in; };
+    const auto sided =
+        in ? fit(L, u_in, u_b, same, deep, mesh_, c) : fit(L, u_out, u_b, same, none, mesh_, c);
+    if (sided) L[c] = *sided;
+  }
+  mesh_.halo.update(L);
+}
+
+void InterfaceGradient::set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
+                                   const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                                   std::span<const Index> cells) {
+  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  const auto deep = [&](Index c) { return deep_[c] > 0; };
+  const auto set = [](Index) { return true; };
+  const auto u_at = [&](Index f) { return &u_b[f - mesh_.n_internal]; };
+  const OfOneSide u_in{u, kink_in_};
+  beside_.clear();
+  for (const Index c : cells) {
+    if (known(c)) strain_[c] = L[c];
+    if (known(c) && !deep(c)) beside_.push_back(c);
+  }
+  mesh_.halo.update(strain_);
+  constexpr int sweeps = 4;
+  for (int i = 0; i < sweeps; ++i) {
+    swept_.clear();
+    for (const Index c : beside_)
+      swept_.push_back(i == 0 ? one_sided_gradient(strain_, u_in, known, deep, u_at, mesh_, c)
+                              : one_sided_gradient(strain_, u_in, known, set, u_at, mesh_, c));
+    for (std::size_t k = 0; k < beside_.size(); ++k) strain_[beside_[k]] = swept_[k];
+    mesh_.halo.update(strain_);
+  }
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,83 @@
+#pragma once
+// The velocity gradient on triangles and tetrahedra with a solid: of second order, of one side.
+
+#include <span>
+#include <vector>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/field/field.hpp"
+
+namespace fsi::solid {
+
+/// Collective. Whether the mesh has triangles or tetrahedra.
+bool has_simplices(const Mesh& mesh);
+
+/// Where the surface cuts cells, and what a kink j max(0, s) of u there, s the distance along n,
+/// adds to their velocity. All owned and halo.
+struct Cuts {
+  const CellField<Real>& alpha;
+  const CellField<Vec3>& normal;      ///< n, out of the solid; zero in cells that are not cut
+  const CellField<Real>& solid_side;  ///< phi: to that of the solid's side, u = u_S + j phi
+  const CellField<Real>& fluid_side;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
+};
+
+/// Sets L in the solid's cells (alpha >= 1/2) and those that share a vertex with one.
+///
+/// A triangle is not symmetric about its centre: the library's gradient is off by a part of
+/// h grad grad u that changes sign from cell to cell, and the strain keeps it. At the surface,
+/// where u has a kink, a gradient over both sides is off by a part of the jump besides, which the
+/// non-orthogonal part of the viscous flux passes on to the velocity.
+///
+/// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
+/// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells of the solid beside its
+/// surface take the gradients of those farther in as well. Where that does not tell it, the solid
+/// or what is around it being thinner than the stencil, L stays the library's, which answers to the
+/// stress as that acts on the velocity: one of the few values of one side alone does not, and a
+/// wisp in a corner of the cavity tore the flow apart.
+///
+/// The velocity of a cut cell is neither side's: the fit of the solid's takes u - j phi, that of
+/// the fluid's u - j (phi - s) (Cuts),
+///   j = (I - n n) . (L_out - L_in) . n,
+/// the normal part left out as div u = 0 leaves none there: from a first fit without it, L_in and
+/// L_out the means over the vertex neighbours on either side, with weights alpha and 1 - alpha.
+class InterfaceGradient {
+ public:
+  explicit InterfaceGradient(const Mesh& mesh)
+      : mesh_(mesh), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
+
+  /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
+  void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+             const Cuts& cuts, std::span<const Index> cells);
+
+  /// Collective, after `apply` with the same L, u, u_b, alpha and cells, all of the solid's among
+  /// them. Sets `strain` in the solid's cells: L in those whose vertex neighbours are all of the
+  /// solid and tell the fit; in the others, by the pairs of cells of the solid,
+  ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2,
+  /// and by u_b as where L changes no more (`one_sided_gradient`), all at once in a few sweeps, of
+  /// which the first takes L_c for L_k where k is such a cell too. Exact for linear u; what one
+  /// sweep leaves of a quadratic, the next ones take down. A quadratic fit from one side answers to
+  /// the errors of few values.
+  void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
+                  const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
+                  std::span<const Index> cells);
+  /// What strains the solid's cells, owned and halo; elsewhere what an earlier call left.
+  const CellField<Tensor>& strain() const { return strain_; }
+
+ private:
+  void clear_kinks();
+  void set_kinks(const CellField<Tensor>& L, const Cuts& cuts, std::span<const Index> cells);
+  void fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+                 const CellField<Real>& alpha, std::span<const Index> cells);
+
+  const Mesh& mesh_;
+  CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
+  std::vector<Index> last_deep_;
+  CellField<Tensor> strain_;
+  std::vector<Index> beside_;  // cells of the solid that are not deep
+  std::vector<Tensor> swept_;
+  CellField<Vec3> kink_in_,
+      kink_out_;  // what a kink adds to u, by the solid's and the fluid's side
+  std::vector<Index> kinked_;
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,26 @@
+#pragma once
+// The direction of the solid about a cell at its surface.
+
+#include <cmath>
+
+#include "libfsi/field/field.hpp"
+
+namespace fsi::solid {
+
+/// Unit vector along sum_k (alpha_k - alpha_c) d_k / |d_k|^2 over the vertex neighbours of cell c:
+/// the normal of the surface, into the solid. Zero where the solid is alike on all sides. alpha:
+/// owned and halo.
+inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index c) {
+  Vec3 n;
+  Real size = 0;
+  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
+    const Index k = mesh.cell_neighbours.index[i];
+    const Vec3 d = mesh.C[k] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[i]];
+    n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
+    size += std::abs(alpha[k] - alpha[c]) / norm(d);
+  }
+  constexpr Real alike = 1e-6;
+  return norm(n) > alike * size ? n / norm(n) : Vec3{};
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,90 @@
+#include "libfsi/solid/semi_implicit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/interface_gradient.hpp"
+
+namespace fsi::solid {
+namespace {
+
+/// sin^2 of the angle between d and the normal m; 1 without one.
+Real part_along(const Vec3& m, const Vec3& d) {
+  const Real across = dot(m, d);
+  return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
+}
+
+}  // namespace
+
+Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
+                  std::span<const Index> cells) {
+  Real time = std::numeric_limits<Real>::max();
+  if (G <= 0) return time;
+  for (const Index c : cells) {
+    Real area = 0;
+    for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm2(mesh.Sf[f]));
+    const Real h = mesh.V[c] / std::sqrt(area);
+    time = std::min(time, h * std::sqrt(rho / (G * std::max(lambda[c], 1.0))));
+  }
+  return time;
+}
+
+SemiImplicitElasticity::SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights)
+    : mesh_(mesh), simplex_(has_simplices(mesh)) {
+  CellField<Real> K(mesh);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    for (const Index f : mesh.cell_faces[c])
+      K[c] += weights.g[f] * norm2(mesh.d[f]) / (2 * mesh.V[c]);
+  mesh.halo.update(K);
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    inertia_.push_back(std::min(0.125, 0.5 / std::max(K[mesh.owner[f]], K[mesh.neighbour[f]])));
+}
+
+void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& force,
+                                   const ElasticTerms& solid, const FaceWeights& weights,
+                                   const Band& band) {
+  constexpr Real explicit_part = 1.5;  // of kappa + m: stable so
+  const CellField<Real>& lambda = solid.lambda;
+  for (const Index f : last_faces_) kappa[f] = 0;
+  last_faces_ = band.faces();
+  for (const Index f : band.faces()) {
+    const Index P = mesh_.owner[f];
+    Real l = lambda[P];
+    if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
+    l *= solid.alpha[f];
+    kappa[f] = implicit_fraction * solid.dt * solid.G * l;
+    if (f >= mesh_.n_internal || l <= 0) continue;
+    const Index N = mesh_.neighbour[f];
+    if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
+    const Real d = norm(mesh_.d[f]);
+    Real e = d * std::sqrt(solid.rho * solid.G * l);
+    const Real inertia = inertia_[f] * solid.rho * d * d / solid.dt;
+    // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
+    // at the surface a part alpha_f of the way is the solid's.
+    const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
+    const Real kinked = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
+    const Real w = solid.kink ? kinked : weights.lambda[f];
+    // less mu_s, as the solid's own compact viscous term does its part
+    if (solid.one_sided) {
+      e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});
+      kappa[f] += std::max(e / explicit_part - kappa[f] - inertia, Real{0});
+    } else if (simplex_) {
+      e *= 2;
+      kappa[f] += e;
+    } else {
+      if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
+      e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0},
+                     explicit_part * (kappa[f] + inertia));
+    }
+    // e g ((u_N - u_P) - (L_f . d))
+    const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
+    const Vec3 flux = e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(L_f, mesh_.d[f]));
+    force[P] += (1 / mesh_.V[P]) * flux;
+    force[N] -= (1 / mesh_.V[N]) * flux;
+  }
+  mesh_.halo.update(force);
+}
+
+}  // namespace fsi::solid

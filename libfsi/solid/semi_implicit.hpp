@@ -1,0 +1,81 @@
+#pragma once
+// How stiff the solid is to a step, and what makes a step larger than that stable.
+
+#include <span>
+
+#include "libfsi/field/band.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+
+namespace fsi::solid {
+
+/// Time in which the elastic shear wave passes a cell: the least h (rho / (G lambda))^(1/2) over
+/// the cells, h = V / max |Sf|, lambda at least 1. [Matsumiya25] (15) This rank's cells only.
+Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
+                  std::span<const Index> cells);
+
+/// What a face operator on the solid reads.
+struct ElasticTerms {
+  const CellField<Real>& lambda;    ///< largest eigenvalue of B, on the band's cells and halo
+  const FaceField<Real>& alpha;     ///< part of solid at the band's faces
+  const CellField<Vec3>& u;         ///< owned and halo
+  const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
+  const CellField<Real>& fraction;  ///< alpha; owned and halo
+  Real G, rho, mu_s, dt;
+  bool kink = false;       ///< the mean of L allows for a kink of u at the surface
+  bool one_sided = false;  ///< L is that of the cell's own side of the surface (InterfaceGradient)
+  /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.
+  const CellField<Vec3>* normal = nullptr;
+};
+
+/// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
+///
+///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha lambda_B
+///
+/// stands in for the change of the elastic stress over the step, which with leapfrog is
+/// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
+/// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. The fastest mode turns by arccos(1 - 1 / (2 c)) a step:
+/// with c = 0.3 by 132 degrees, and what the surface excites on its way through the cells stays in
+/// a thin body; with 0.4 by 104. It vanishes with the change of u over a step.
+///
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda_B)^(1/2) - alpha mu_s, at least 0
+///
+/// compares the compact gradient with the averaged one. The averaged stress does not see what
+/// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
+/// far as the solid's own viscosity, whose compact term does the same, does not. At a
+/// surface between two viscosities (normal) the part of it along the surface alone is left, e
+/// sin^2 of the angle between d and the normal: across it the mean is off by a part of the kink of
+/// u, a stress of first order, and the viscous stress in series damps instead. The mean is
+/// (L_P + L_N) / 2, exact for a quadratic velocity, at the surface, where u has a kink,
+/// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
+/// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,
+/// and so at most 1.5 (kappa + m), m = rho |d|^2 / dt min(1 / 8, 1 / (2 K)) with the larger K =
+/// sum_f g |d|^2 / (2 V) of the two cells: a velocity that differs from all neighbours' then
+/// changes by no more than 1.5 of itself in a step, whatever the shape of its cell (K = dim on
+/// squares and regular simplices, 10 and more on slivers). Triangles and tetrahedra, whose gradient
+/// has more such modes, need twice the root and all of it. With L from the cell's own side (sided)
+/// kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m where that is
+/// positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n. Either costs an
+/// error of first order in dt. Without `kink` the mean is that of the face.
+class SemiImplicitElasticity {
+ public:
+  /// Collective.
+  SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights);
+
+  /// kappa / (dt G alpha lambda_B).
+  static constexpr Real implicit_fraction = 0.4;
+
+  /// Collective. kappa_f: the implicit coefficient, on triangles and tetrahedra with i or e added;
+  /// lambda_B linear between the cells, times the face's alpha; zero outside the band of this and
+  /// the last call. force += the explicit rest of the second.
+  void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const ElasticTerms& solid,
+             const FaceWeights& weights, const Band& band);
+
+ private:
+  const Mesh& mesh_;
+  bool simplex_ = false;       // whether the mesh has triangles or tetrahedra
+  std::vector<Real> inertia_;  // [n_internal] m dt / (rho |d|^2)
+  std::vector<Index> last_faces_;
+};
+
+}  // namespace fsi::solid
