@@ -12,7 +12,7 @@ RunStatus body() {
       options.choice("velocity", "vortex", vof::motion_names(), "what carries the interface");
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
-  require(setup.solid.shape.has_value(), "option -solid_shape is missing: what is carried");
+  require(setup.solids.size() == 1, "option -solid_shape is missing: what is carried");
 
   // 2 mesh and velocity
   const Mesh mesh = read_mesh(setup.mesh);
@@ -20,7 +20,7 @@ RunStatus body() {
   describe(setup, mesh, 1, 1);
 
   // 3 the interface
-  PrescribedAdvection carried(mesh, motion, *setup.solid.shape);
+  PrescribedAdvection carried(mesh, motion, setup.solids[0].solid.shape);
 
   // 4 what to write
   PrescribedAdvectionOutput output(setup, options, carried);

@@ -22,13 +22,13 @@ RunStatus body() {
                            {"bottom", Wall{shear(centre(mesh, "bottom"))}}};
   for (const Patch& patch : mesh.patches)
     if (patch.name == "back" || patch.name == "front") setup.flow.conditions[patch.name] = Slip{};
-  const Real length = setup.solid.shape ? setup.solid.thickness / 2 : 1;
+  const Real length = setup.solids.empty() ? 1 : setup.solids[0].thickness / 2;
   describe(setup, mesh, length, rate * length);
 
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);
   solver.start(shear);
-  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
+  put_solids(solver, setup);
 
   // 4 what to write
   Output output(setup, options, solver, "shear");

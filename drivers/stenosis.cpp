@@ -23,7 +23,7 @@ RunStatus body() {
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
+  put_solids(solver, setup);
 
   // 4 what to write
   Output output(setup, options, solver, "stenosis");

@@ -11,20 +11,20 @@ RunStatus body() {
   Case setup = read_case(options, "vessel");
   const Vec3 force =
       options.vec3("flow_body_force", {}, {.help = "on fluid and solid", .unit = "force / volume"});
-  if (options.help()) return list_vessel_options(options, setup.solid), RunStatus::complete;
+  if (options.help()) return list_vessel_options(options), RunStatus::complete;
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(setup.mesh);
   setup.flow.conditions = read_patches(options, mesh);
   if (norm(force) > 0) setup.flow.body_force = [=](const Vec3&, Real) { return force; };
-  place_solid(setup.solid, options, mesh);
+  place_solids(setup.solids, options, mesh);
   options.check_unknown();
   describe(setup, mesh, 1, 0);
 
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
+  put_solids(solver, setup);
 
   // 4 what to write
   Output output(setup, options, solver, "vessel");

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -318,6 +319,14 @@ bool Options::given(const std::string& name) const {
   PetscBool has = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), &has));
   return has == PETSC_TRUE;
+}
+
+std::vector<std::string> Options::names(const std::string& begin, const std::string& end) const {
+  std::set<std::string> found;
+  for (const auto& [name, value] : all_given())
+    if (name.starts_with(begin) && name.ends_with(end) && name.size() > begin.size() + end.size())
+      found.insert(name.substr(begin.size(), name.size() - begin.size() - end.size()));
+  return {found.begin(), found.end()};
 }
 
 void Options::check_unknown() const {

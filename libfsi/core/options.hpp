@@ -43,6 +43,8 @@ class Options {
   std::vector<std::string> list(const std::string& name, const std::string& help);
   /// Whether the user gave this option.
   bool given(const std::string& name) const;
+  /// The names NAME of the options beginNAMEend that the user gave, in alphabetical order.
+  std::vector<std::string> names(const std::string& begin, const std::string& end) const;
 
   /// True when the user asked for -help: the driver reads its options, then ends.
   bool help() const { return help_; }

@@ -123,9 +123,12 @@ std::map<std::string, std::string> lines(const std::string& text) {
 }
 
 /// Collective. Cells with their centre in the solid: the most a rank holds over the mean; 0: none.
-Real solid_share(const Mesh& mesh, const shapes::Shape& shape) {
+Real solid_share(const Mesh& mesh, const std::vector<SolidSetup>& solids) {
   const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
-  const auto mine = std::ranges::count_if(centres, [&](const Vec3& x) { return shape(x) < 0; });
+  const auto in_a_solid = [&](const Vec3& x) {
+    return std::ranges::any_of(solids, [&](const SolidSetup& s) { return s.solid.shape(x) < 0; });
+  };
+  const auto mine = std::ranges::count_if(centres, in_a_solid);
   const GlobalIndex total = global_sum(static_cast<GlobalIndex>(mine));
   const Real most = global_max(static_cast<Real>(mine));
   return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
@@ -134,7 +137,7 @@ Real solid_share(const Mesh& mesh, const shapes::Shape& shape) {
 /// Whether an option tells of the solid's shape and place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
-  return name.starts_with("solid_") &&
+  return name.starts_with("solid") &&
          std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
 }
 
@@ -145,13 +148,17 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.mesh = read_mesh_options(options, path);
   result.physics = read_physics(options);
   result.flow = read_flow(options);
-  result.solid = read_solid(options, result.physics);
+  result.solids = read_solids(options, result.physics);
   // What the solid costs is spent in its cells and those its surface cuts; these too are counted
   // by a margin, as nothing is known of their size here.
   constexpr Real margin = 0.1;
-  if (result.solid.shape)
-    result.mesh.load = [shape = *result.solid.shape, reach = margin * result.solid.thickness](
-                           const Vec3& x) { return shape(x) < reach ? 1.0 : 0.0; };
+  if (!result.solids.empty())
+    result.mesh.load = [solids = result.solids](const Vec3& x) {
+      const auto holds = [&](const SolidSetup& s) {
+        return s.solid.shape(x) < margin * s.thickness;
+      };
+      return static_cast<Real>(std::ranges::count_if(solids, holds));
+    };
   result.time = read_time(options);
   result.output = read_output(options, driver);
   require(options.help() || !result.mesh.file.empty(),
@@ -192,35 +199,35 @@ std::string differences(const std::string& before, const std::string& now) {
          (solid ? "; the solid's shape and place stay those of the checkpoint" : "");
 }
 
+void put_solids(Solver& solver, const Case& setup) {
+  for (const SolidSetup& s : setup.solids) solver.put_solid(s.solid);
+}
+
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
-  const Real share = ranks() > 1 && setup.solid.shape ? solid_share(mesh, *setup.solid.shape) : 0;
+  const Real share = ranks() > 1 && !setup.solids.empty() ? solid_share(mesh, setup.solids) : 0;
   if (rank() != 0) return;
   std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());
   const std::string past = warning(setup.mesh.file, findings(figures));
   if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
   if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = setup.physics;
-  if (velocity == 0) {
+  if (velocity == 0)
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");
-    if (setup.solid.shape)
-      std::printf("%s: density ratio 1, viscosity ratio %.4g, thickness %g\n",
-                  setup.solid.name.c_str(), p.mu_s / p.mu_f, setup.solid.thickness);
-    std::fflush(stdout);
-    return;
-  }
-  std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
-              length, velocity);
-  if (setup.solid.shape) {
-    const auto cells = static_cast<Real>(mesh.n_global);
-    const Real h = std::pow(mesh.total_volume / cells, 1.0 / mesh.dim);
-    std::printf(
-        "%s: Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g, density ratio 1, viscosity "
-        "ratio "
-        "%.4g, %.1f cells through its thickness of %g\n",
-        setup.solid.name.c_str(), p.mu_f * velocity / (p.G * length),
-        p.G / (p.rho * velocity * velocity), p.mu_s / p.mu_f, setup.solid.thickness / h,
-        setup.solid.thickness);
+  else
+    std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
+                length, velocity);
+  const Real h = std::pow(mesh.total_volume / static_cast<Real>(mesh.n_global), 1.0 / mesh.dim);
+  for (const SolidSetup& s : setup.solids) {
+    const std::string name =
+        s.solid.name.empty() ? s.shape_name : s.solid.name + " (" + s.shape_name + ")";
+    std::printf("%s: density ratio 1, viscosity ratio %.4g, %.1f cells through its thickness of %g",
+                name.c_str(), s.solid.mu / p.mu_f, s.thickness / h, s.thickness);
+    if (velocity != 0)
+      std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
+                  p.mu_f * velocity / (s.solid.G * length),
+                  s.solid.G / (p.rho * velocity * velocity));
+    std::printf("\n");
   }
   std::fflush(stdout);
 }
@@ -233,10 +240,10 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   constexpr int steps_of_start = 10;
   if (solver.state().step < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
-  if (solver.body()) all.push_back({solver.carried_dt(), "advective"});
-  if (solver.body()) all.push_back({solver.elastic_dt(), "elastic"});
+  if (solver.body() != nullptr) all.push_back({solver.carried_dt(), "advective"});
+  if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
   constexpr Real strain = 0.4;  // below what a step is rejected for
-  if (solver.body()) all.push_back({solver.strain_dt(strain), "strain"});
+  if (solver.body() != nullptr) all.push_back({solver.strain_dt(strain), "strain"});
   constexpr Real growth = 1.1;
   if (time.step_first > 0)
     all.push_back({time.step_first * std::pow(growth, solver.state().step), "start"});

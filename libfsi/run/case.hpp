@@ -29,14 +29,14 @@ struct OutputSetup {
   Real wall_seconds_max = 0;    ///< 0: no limit
 };
 
-/// The undeformed solid; no shape: no solid.
+/// A solid as the user described it.
 struct SolidSetup {
-  std::optional<shapes::Shape> shape;
-  std::optional<shapes::Shape> about_origin;  ///< the same, its axis of revolution along x
-  Real angle = 0;                             ///< between that axis and x when placed, in degrees
-  std::string name = "none";
-  Real thickness = 0;  ///< the least of its dimensions
-  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Solid solid;
+  shapes::Shape about_origin;  ///< the same shape, its axis of revolution along x
+  Real angle = 0;              ///< between that axis and x when placed, in degrees
+  std::string shape_name;
+  Real thickness = 0;   ///< the least of its dimensions
+  std::string options;  ///< what its options begin with: "solid_" or "solids_NAME_"
 };
 
 /// A case as the user described it.
@@ -44,13 +44,16 @@ struct Case {
   MeshOptions mesh;
   Physics physics;
   FlowSetup flow;  ///< without conditions
-  SolidSetup solid;
+  std::vector<SolidSetup> solids;
   TimeSetup time;
   OutputSetup output;
 };
 
-/// Reads the solid's options; sets mu_s and G. Errors: Error{input}.
-SolidSetup read_solid(Options& options, Physics& physics);
+/// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
+/// NAME with a shape. Errors: Error{input}.
+std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
+/// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
+void put_solids(Solver& solver, const Case& setup);
 
 /// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the
 /// default of -mesh_divide_along. Errors: Error{input}.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <limits>
 
@@ -33,10 +35,12 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
       simulated_(simulated(options)),
       lock_(io::make_directory(setup.output.directory)),
       checkpoints_(setup.output.directory, solver.mesh()),
-      record_(setup.solid.name == "torus"),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval),
       checkpoint_(setup.output.checkpoint_interval) {
+  for (std::size_t i = 0; i < solver.bodies().size(); ++i)
+    records_.emplace_back(i < setup.solids.size() && setup.solids[i].shape_name == "torus");
+  said_.resize(records_.size());
   if (setup.output.restart) {
     go_on_from_checkpoint();
   } else {
@@ -115,16 +119,16 @@ void Output::go_on_from_checkpoint() {
 
 io::Snapshot Output::snapshot() {
   std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
-  if (const std::optional<Body>& body = solver_.body())
-    identity +=
-        body->semi_implicit() ? " kinematics=log_conformation" : " kinematics=left_cauchy_green";
+  for (const Body& body : solver_.bodies())
+    identity += (body.name.empty() ? " " : " " + body.name + ".") +
+                "kinematics=" + name_of(body.kinematics);
   io::Snapshot all(identity);
   all.add("simulated", &simulated_);
   solver_.list(all);
   all.add("rejected_steps", &solver_.report().rejected);
   samples_text_ = samples_.text();
   all.add("rows", &samples_text_);
-  if (solver_.body()) record_.list(all);
+  for (std::size_t i = 0; i < records_.size(); ++i) records_[i].list(all, solver_.bodies()[i].name);
   return all;
 }
 
@@ -139,14 +143,18 @@ void Output::open_tables() {
   const bool restart = case_.output.restart;
   const Real t = restart ? solver_.state().t : -std::numeric_limits<Real>::infinity();
   const Real t_row = restart ? std::max(t, samples_.last(t)) : t;
-  const SolidRecord before = record_;
+  const std::vector<SolidRecord> before = records_;
   std::vector<Row> first = rows({}, 0, 0);
   flow_.emplace(directory + "/flow.csv", names(first[0].entries), t_row);
-  if (solver_.body()) solid_.emplace(directory + "/solid.csv", names(first[1].entries), t_row);
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const std::string& name = solver_.bodies()[i].name;
+    solids_.emplace_back(directory + (name.empty() ? "/solid.csv" : "/solid_" + name + ".csv"),
+                         names(first[i + 1].entries), t_row);
+  }
   if (restart) {
-    record_ = before;  // it must be found as it was
+    records_ = before;  // they must be found as they were
   } else {
-    if (solver_.body()) solid_->row(values(first[1].entries));
+    for (std::size_t i = 0; i < records_.size(); ++i) solids_[i].row(values(first[i + 1].entries));
     samples_.hold(std::move(first));
   }
   if (case_.output.field_interval <= 0) return;
@@ -160,7 +168,8 @@ bool Output::go_on() {
   const Real wall = case_.output.wall_seconds_max;
   if (signal == Signal::checkpoint) write_checkpoint();
   interrupted_ = signal == Signal::end || (wall > 0 && global_max(watch_.seconds()) > wall);
-  const bool empty = solver_.body() && solver_.body()->gone != 0;
+  const bool empty = !solver_.bodies().empty() &&
+                     std::ranges::all_of(solver_.bodies(), [](auto& b) { return b.gone != 0; });
   if (empty && case_.output.end_when_empty) return false;
   return !interrupted_ && solver_.report().failure.empty();
 }
@@ -200,33 +209,48 @@ void Output::write_due(const Limit& asked, Real dt) {
   progress_at_ = watch_.seconds();
 }
 
-/// A word when the solid begins to leave the mesh, and one when nothing of it is left.
+/// A word when a solid begins to leave the mesh, and one when nothing of it is left.
 void Output::tell_of_leaving() {
-  const std::optional<Body>& body = solver_.body();
-  if (!body || body->volume_out <= 0) return;
-  const bool begins = !leaving_, ends = body->gone != 0 && !left_;
-  leaving_ = true, left_ = body->gone != 0;
-  if (rank() != 0) return;
-  if (begins)
-    std::fprintf(
-        stderr,
-        "fsi: notice: solid leaves the mesh from t = %g on: column volume_out of solid.csv\n",
-        solver_.state().t);
-  if (ends)
-    std::fprintf(stderr, "fsi: notice: the last of the solid left the mesh at t = %g\n",
-                 solver_.state().t);
+  for (std::size_t i = 0; i < said_.size(); ++i) {
+    const Body& body = solver_.bodies()[i];
+    if (body.volume_out <= 0) continue;
+    const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
+    said_[i] = {.leaving = true, .left = body.gone != 0};
+    if (rank() != 0) continue;
+    const std::string of = body.name.empty() ? "" : "_" + body.name;
+    const std::string which = body.name.empty() ? "solid" : "solid " + body.name;
+    if (begins)
+      std::fprintf(stderr,
+                   "fsi: notice: %s leaves the mesh from t = %g on: column volume_out of "
+                   "solid%s.csv\n",
+                   which.c_str(), solver_.state().t, of.c_str());
+    if (ends)
+      std::fprintf(stderr, "fsi: notice: the last of the %s left the mesh at t = %g\n",
+                   which.c_str(), solver_.state().t);
+  }
 }
 
-/// Of both tables, or of flow.csv alone.
+/// The largest of the solids.
+Real Output::drift() const {
+  Real most = 0;
+  for (const SolidRecord& record : records_)
+    if (std::abs(record.drift()) > std::abs(most)) most = record.drift();
+  return most;
+}
+
+/// Of all tables.
 std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   const State& s = solver_.state();
-  const Real t_shape = solver_.body() ? solver_.body()->t : s.t;
+  const Real t_shape = solver_.body() != nullptr ? solver_.body()->t : s.t;
   std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
   if (s.step == 0)
     for (Entry& entry : all[0].entries)
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
-  if (solver_.body() && solver_.body()->gone == 0)
-    all.push_back({s.t, t_shape, record_.row(solver_)});
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const Body& body = solver_.bodies()[i];
+    all.push_back({s.t, body.t, {}});
+    if (body.gone == 0) all.back().entries = records_[i].row(solver_, body);
+  }
   return all;
 }
 
@@ -246,7 +270,8 @@ void Output::write_rows(const Limit& limit, Real dt) {
   }
   for (const Real t : times) {
     flow_->row(samples_.row(0, now[0], t));
-    if (now.size() > 1) solid_->row(samples_.row(1, now[1], t));
+    for (std::size_t i = 1; i < now.size(); ++i)
+      if (!now[i].entries.empty()) solids_[i - 1].row(samples_.row(i, now[i], t));
   }
   samples_.hold(near ? std::move(now) : std::vector<Row>{});
 }
@@ -258,11 +283,12 @@ void Output::write_fields() {
   CellField<Real> Q(mesh);
   analysis::q_criterion(Q, solver_.velocity_gradient());
   std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
-  std::optional<CellField<SymTensor>> B;
-  if (const std::optional<Body>& body = solver_.body()) {
-    B.emplace(B_field(*body, mesh));
-    fields.push_back(io::named("alpha", body->alpha));
-    fields.push_back(io::named("B", *B));
+  std::deque<CellField<SymTensor>> B;
+  for (const Body& body : solver_.bodies()) {
+    B.push_back(B_field(body, mesh));
+    const std::string of = body.name.empty() ? "" : "_" + body.name;
+    fields.push_back(io::named("alpha" + of, body.alpha));
+    fields.push_back(io::named("B" + of, B.back()));
   }
   fields_->write(s.t, fields);
   fields_at_ = s.t;
@@ -281,8 +307,8 @@ void Output::write_progress(const Limit& limit, Real dt) {
   std::printf(
       "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
       "%s\n",
-      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_,
-      record_.drift(), solver_.report().pressure_iterations, solver_.report().velocity_iterations,
+      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_, drift(),
+      solver_.report().pressure_iterations, solver_.report().velocity_iterations,
       Forecast::text(left).c_str());
   std::fflush(stdout);
 }
@@ -300,7 +326,7 @@ std::string Output::summary(const std::string& status) const {
   s.t = solver_.state().t;
   s.wall_seconds = watch_.seconds();
   s.divergence_max = divergence_;
-  s.solid_volume_drift = record_.drift();
+  s.solid_volume_drift = drift();
   s.phases = solver_.profile().seconds();
   s.limits = limits_;
   for (const auto& [reason, number] : solver_.report().rejections)

@@ -72,11 +72,12 @@ class Output {
   std::string driver_, simulated_;
   io::Lock lock_;
   io::Checkpoint checkpoints_;
-  SolidRecord record_;
+  std::vector<SolidRecord> records_;  // of the bodies
   Samples samples_;
   std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
   Schedule field_, checkpoint_;
-  std::optional<io::Table> flow_, solid_;
+  std::optional<io::Table> flow_;
+  std::vector<io::Table> solids_;  // of the bodies
   std::optional<io::FieldWriter> fields_;
   Stopwatch watch_;
   Forecast forecast_;
@@ -85,7 +86,11 @@ class Output {
   std::map<std::string, Real> limits_;  // steps by what set their length
   std::string message_;                 // why the run ended, where no step failed
   bool interrupted_ = false, finished_ = false;
-  bool leaving_ = false, left_ = false;  // what was said of the solid
+  struct Said {
+    bool leaving = false, left = false;
+  };
+  std::vector<Said> said_;  // of the bodies
+  Real drift() const;
 };
 
 }  // namespace fsi

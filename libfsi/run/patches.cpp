@@ -173,34 +173,51 @@ OfTime series(const std::string& file, Real period) {
   };
 }
 
-void place_solid(SolidSetup& solid, Options& options, const Mesh& mesh) {
-  const std::vector<std::string> path =
-      options.list("solid_path",
-                   "two patches whose centre line the solid stands on, in place of "
-                   "-solid_center");
-  const Real s = options.real(
-      "solid_arc_length", 1, {.help = "along -solid_path, from its first patch", .unit = "length"});
-  if (path.empty() || options.help() || !solid.shape) return;
-  require(path.size() == 2, "option -solid_path needs two patches: from,to");
-  require(!options.given("solid_axis"), "options -solid_path and -solid_axis exclude each other");
-  const flow::CentreLine line(mesh, path[0], path[1]);
-  const std::string range = "option -solid_arc_length: the centre line from " + path[0] + " to " +
-                            path[1] + " is " + std::to_string(line.length()) + " long";
-  require(s > 0 && s < line.length(), range);
-  const auto [at, along] = line.at(s);
-  const shapes::Shape aligned = shapes::align(*solid.about_origin, along);
-  const Real turn = solid.angle * std::numbers::pi / 180;
-  solid.shape = shapes::translate(shapes::rotate(aligned, {0, 0, 1}, turn), at);
-  if (rank() == 0)
-    std::printf(
-        "solid on the centre line from %s to %s, %.4g of %.4g along it: at (%.5g, %.5g, %.5g)\n",
-        path[0].c_str(), path[1].c_str(), s, line.length(), at.x, at.y, at.z);
+namespace {
+
+struct Path {
+  std::vector<std::string> patches;
+  Real arc_length;
+};
+
+Path read_path(Options& options, const std::string& of) {
+  const auto patches = options.list(
+      of + "path", "two patches whose centre line the solid stands on, in place of its center");
+  const Real s = options.real(of + "arc_length", 1,
+                              {.help = "along the path, from its first patch", .unit = "length"});
+  return {patches, s};
 }
 
-void list_vessel_options(Options& options, SolidSetup& solid) {
+}  // namespace
+
+void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh& mesh) {
+  for (SolidSetup& solid : solids) {
+    const std::string& of = solid.options;
+    const auto [path, s] = read_path(options, of);
+    if (path.empty()) continue;
+    require(path.size() == 2, "option -" + of + "path needs two patches: from,to");
+    require(!options.given(of + "axis"),
+            "options -" + of + "path and -" + of + "axis exclude each other");
+    const flow::CentreLine line(mesh, path[0], path[1]);
+    require(s > 0 && s < line.length(), "option -" + of + "arc_length: the centre line from " +
+                                            path[0] + " to " + path[1] + " is " +
+                                            std::to_string(line.length()) + " long");
+    const auto [at, along] = line.at(s);
+    const shapes::Shape aligned = shapes::align(solid.about_origin, along);
+    const Real turn = solid.angle * std::numbers::pi / 180;
+    solid.solid.shape = shapes::translate(shapes::rotate(aligned, {0, 0, 1}, turn), at);
+    if (rank() != 0) continue;
+    const std::string name = solid.solid.name.empty() ? "solid" : "solid " + solid.solid.name;
+    std::printf(
+        "%s on the centre line from %s to %s, %.4g of %.4g along it: at (%.5g, %.5g, %.5g)\n",
+        name.c_str(), path[0].c_str(), path[1].c_str(), s, line.length(), at.x, at.y, at.z);
+  }
+}
+
+void list_vessel_options(Options& options) {
   options.choice("patches_NAME_type", "wall", types, "what stands at patch NAME of the mesh");
   PatchOptions(options, "NAME").list();
-  place_solid(solid, options, {});
+  read_path(options, "solid_");
 }
 
 }  // namespace fsi

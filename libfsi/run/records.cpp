@@ -176,10 +176,9 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
 
 std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
   const Mesh& mesh = solver.mesh();
-  const std::optional<Body>& body = solver.body();
-  const Real elastic =
-      body ? analysis::elastic_energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh)
-           : 0;
+  Real elastic = 0;
+  for (const Body& body : solver.bodies())
+    elastic += analysis::elastic_energy(body.G, B_field(body, mesh), body.alpha, mesh);
   std::vector<Entry> row{
       {"t", solver.state().t},
       {"dt", dt, Course::step},
@@ -197,12 +196,12 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
       {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
       {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
       {"wall_per_step", wall_per_step, Course::step}};
+  if (solver.bodies().size() > 1) row.push_back({"overlap", solver.overlap(), Course::step});
   add_openings(row, solver);
   return row;
 }
 
-std::vector<Entry> SolidRecord::row(const Solver& solver) {
-  const Body& body = *solver.body();
+std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Mesh& mesh = solver.mesh();
   tracker_.started = started_ != 0;
   const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh);
@@ -236,20 +235,21 @@ std::vector<Entry> SolidRecord::row(const Solver& solver) {
   return row;
 }
 
-void SolidRecord::list(io::Snapshot& snapshot) {
-  const auto add_vector = [&](const std::string& name, Vec3& v) {
-    snapshot.add(name + "_x", &v.x);
-    snapshot.add(name + "_y", &v.y);
-    snapshot.add(name + "_z", &v.z);
+void SolidRecord::list(io::Snapshot& snapshot, const std::string& name) {
+  const std::string of = name.empty() ? "" : name + "_";
+  const auto add_vector = [&](const std::string& what, Vec3& v) {
+    snapshot.add(of + what + "_x", &v.x);
+    snapshot.add(of + what + "_y", &v.y);
+    snapshot.add(of + what + "_z", &v.z);
   };
   add_vector("tracker_home", tracker_.home);
   add_vector("tracker_travelled", tracker_.travelled);
   add_vector("tracker_middle", tracker_.middle);
   add_vector("axis", axis_);
   add_vector("zeta", zeta_);
-  snapshot.add("tracker_started", &started_);
-  snapshot.add("volume_0", &volume_0_);
-  snapshot.add("drift", &drift_);
+  snapshot.add(of + "tracker_started", &started_);
+  snapshot.add(of + "volume_0", &volume_0_);
+  snapshot.add(of + "drift", &drift_);
 }
 
 }  // namespace fsi

@@ -33,12 +33,13 @@ class SolidRecord {
   /// ring: whether the shape is a torus, whose deformation is measured too.
   explicit SolidRecord(bool ring) : ring_(ring) {}
 
-  /// Collective. A row of solid.csv: centroid, velocity and `taylor` at the state's time, the shape
-  /// at that of the solid.
-  std::vector<Entry> row(const Solver& solver);
+  /// Collective. A row of solid.csv, of one body of the solver: centroid, velocity and `taylor` at
+  /// the state's time, the shape at that of the solid.
+  std::vector<Entry> row(const Solver& solver, const Body& body);
   /// Relative change of volume since the start, at the last row.
   Real drift() const { return drift_; }
-  void list(io::Snapshot& snapshot);
+  /// name: of the body.
+  void list(io::Snapshot& snapshot, const std::string& name);
 
  private:
   bool ring_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/run/case.hpp"
@@ -12,31 +13,31 @@ Real length(Options& options, const std::string& name, Real fallback, const std:
 }
 
 /// The shape about the origin, its axis along x. With -help every shape's options are listed.
-shapes::Shape undeformed(Options& options, const std::string& name, Real& thickness) {
+shapes::Shape undeformed(Options& options, const std::string& of, const std::string& name,
+                         Real& thickness) {
   shapes::Shape shape = shapes::sphere(1);
   const bool all = options.help();
   if (all || name == "torus") {
-    const Real R = length(options, "solid_major_radius", 0.3, "torus: of the circle");
-    const Real r = length(options, "solid_minor_radius", 0.1, "torus: of the tube");
-    require(r < R, "option -solid_minor_radius must be smaller than -solid_major_radius");
+    const Real R = length(options, of + "major_radius", 0.3, "torus: of the circle");
+    const Real r = length(options, of + "minor_radius", 0.1, "torus: of the tube");
+    require(r < R, "option -" + of + "minor_radius must be smaller than -" + of + "major_radius");
     shape = shapes::torus(R, r);
     thickness = 2 * r;
   }
   if (all || name == "ellipsoid") {
-    const Vec3 axes = options.vec3("solid_semi_axes", {0.4, 0.25, 0.25},
+    const Vec3 axes = options.vec3(of + "semi_axes", {0.4, 0.25, 0.25},
                                    {.help = "ellipsoid: along x, y, z", .unit = "length"});
     require(axes.x > 0 && axes.y > 0 && axes.z > 0,
-            "option -solid_semi_axes: all three must be > 0");
+            "option -" + of + "semi_axes: all three must be > 0");
     shape = shapes::ellipsoid(axes);
     thickness = 2 * std::min({axes.x, axes.y, axes.z});
   }
   if (all || name == "sphere" || name == "disk" || name == "cylinder" || name == "capsule") {
-    const Real r = length(options, "solid_radius", 0.2, "sphere, disk, cylinder, capsule");
+    const Real r = length(options, of + "radius", 0.2, "sphere, disk, cylinder, capsule");
     thickness = 2 * r;
     if (name == "sphere") shape = shapes::sphere(r);
     if (all || name != "sphere") {
-      const Real h =
-          length(options, "solid_height", 0.2, "disk, cylinder, capsule: along the axis");
+      const Real h = length(options, of + "height", 0.2, "disk, cylinder, capsule: along the axis");
       if (name == "capsule") shape = shapes::capsule(r, h);
       if (name == "disk" || name == "cylinder") shape = shapes::cylinder(r, h);
       if (name != "capsule") thickness = std::min(thickness, h);
@@ -45,61 +46,86 @@ shapes::Shape undeformed(Options& options, const std::string& name, Real& thickn
   return shape;
 }
 
-}  // namespace
-
-SolidSetup read_solid(Options& options, Physics& physics) {
-  SolidSetup solid;
-  solid.name =
-      options.choice("solid_shape", "none",
-                     {"none", "torus", "sphere", "ellipsoid", "disk", "cylinder", "capsule"},
-                     "undeformed shape; none: no solid");
-  const Real density =
-      options.real("solid_density", physics.rho,
-                   {.help = "density of the solid", .unit = "mass / volume", .positive = true});
-  require(density == physics.rho,
-          "option -solid_density: only a solid as dense as the fluid can be run so far");
-  physics.mu_s = options.real(
-      "solid_viscosity", physics.mu_f,
-      {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
-  physics.G = options.real("solid_shear_modulus", 1,
-                           {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
-  options.choice("solid_law", "neo_hookean", {"neo_hookean"}, "elastic law");
+KinematicsKind read_kinematics(Options& options, const std::string& of) {
   const std::string kinematics =
-      options.choice("solid_kinematics", "log_conformation",
+      options.choice(of + "kinematics", "log_conformation",
                      {"log_conformation", "left_cauchy_green", "reference_map"},
                      "how deformation is tracked: log B, the paper's B~, or the map to where each "
                      "particle once was");
-  solid.kinematics = kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
-                     : kinematics == "reference_map"   ? KinematicsKind::reference_map
-                                                       : KinematicsKind::log_conformation;
-  if (solid.name == "none" && !options.help()) return solid;
-  physics.solid_acceleration =
-      options.vec3("solid_acceleration", {},
-                   {.help = "body force on the solid alone, per mass", .unit = "length / time^2"});
+  return kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
+         : kinematics == "reference_map"   ? KinematicsKind::reference_map
+                                           : KinematicsKind::log_conformation;
+}
 
-  const shapes::Shape shape = undeformed(options, solid.name, solid.thickness);
-  solid.about_origin = shape;
-  const Vec3 centre = options.vec3("solid_center", {0.5, 0.5, 0.5},
+/// Sets G, mu and the acceleration.
+void read_material(Options& options, const std::string& of, const Physics& physics, Solid& solid) {
+  const Real density =
+      options.real(of + "density", physics.rho,
+                   {.help = "density of the solid", .unit = "mass / volume", .positive = true});
+  require(density == physics.rho, "option -" + of +
+                                      "density: only a solid as dense as the fluid can be run so "
+                                      "far");
+  solid.mu = options.real(
+      of + "viscosity", physics.mu_f,
+      {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
+  solid.G = options.real(of + "shear_modulus", 1,
+                         {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
+  options.choice(of + "law", "neo_hookean", {"neo_hookean"}, "elastic law");
+  solid.acceleration =
+      options.vec3(of + "acceleration", {},
+                   {.help = "body force on the solid alone, per mass", .unit = "length / time^2"});
+}
+
+/// Puts the shape about the origin where the options say.
+void place(Options& options, const std::string& of, SolidSetup& solid) {
+  const Vec3 centre = options.vec3(of + "center", {0.5, 0.5, 0.5},
                                    {.help = "centre of the shape", .unit = "length"});
-  if (options.given("solid_axis")) {
+  if (options.given(of + "axis")) {
     const Vec3 axis =
-        options.vec3("solid_axis", {1, 0, 0}, {.help = "axis of revolution", .unit = ""});
-    require(norm(axis) > 0, "option -solid_axis must not be zero");
-    require(!options.given("solid_angle"),
-            "options -solid_axis and -solid_angle exclude each other");
-    solid.shape = shapes::translate(shapes::align(shape, axis), centre);
-    return solid;
+        options.vec3(of + "axis", {1, 0, 0}, {.help = "axis of revolution", .unit = ""});
+    require(norm(axis) > 0, "option -" + of + "axis must not be zero");
+    require(!options.given(of + "angle"),
+            "options -" + of + "axis and -" + of + "angle exclude each other");
+    solid.solid.shape = shapes::translate(shapes::align(solid.about_origin, axis), centre);
+    return;
   }
-  const Real angle = options.real(
-      "solid_angle", 0,
-      {.help = "between the axis of revolution and x, in the x-y plane; or -solid_axis x,y,z",
-       .unit = "degrees",
-       .min = -360,
-       .max = 360});
-  solid.angle = angle;
-  solid.shape =
-      shapes::translate(shapes::rotate(shape, {0, 0, 1}, angle * std::numbers::pi / 180), centre);
-  return solid;
+  solid.angle = options.real(of + "angle", 0,
+                             {.help = "between the axis of revolution and x, in the x-y plane; or "
+                                      "the axis itself, x,y,z, by the option of that name",
+                              .unit = "degrees",
+                              .min = -360,
+                              .max = 360});
+  const Real turn = solid.angle * std::numbers::pi / 180;
+  solid.solid.shape =
+      shapes::translate(shapes::rotate(solid.about_origin, {0, 0, 1}, turn), centre);
+}
+
+/// Adds the solid of the options that begin with `of`; none where its shape is "none".
+void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::string& of,
+               const std::string& name, const Physics& physics) {
+  SolidSetup solid;
+  solid.solid.name = name;
+  solid.options = of;
+  solid.shape_name = options.choice(
+      of + "shape", "none", {"none", "torus", "sphere", "ellipsoid", "disk", "cylinder", "capsule"},
+      "undeformed shape; none: no solid");
+  if (solid.shape_name == "none" && !options.help()) return;
+  read_material(options, of, physics, solid.solid);
+  solid.solid.kinematics = read_kinematics(options, of);
+  solid.about_origin = undeformed(options, of, solid.shape_name, solid.thickness);
+  place(options, of, solid);
+  if (solid.shape_name != "none") solids.push_back(std::move(solid));
+}
+
+}  // namespace
+
+std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
+  std::vector<SolidSetup> solids;
+  const std::vector<std::string> names = options.names("solids_", "_shape");
+  if (names.empty() || options.help()) add_solid(solids, options, "solid_", "", physics);
+  for (const std::string& name : names)
+    add_solid(solids, options, "solids_" + name + "_", name, physics);
+  return solids;
 }
 
 }  // namespace fsi

@@ -34,7 +34,7 @@ void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rh
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
     const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
-    rhie_chow_source[f] = dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
+    rhie_chow_source[f] += dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
     // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = alpha B
     SymTensor T = (1 - lambda) * alpha[P] * B[P] + lambda * alpha[N] * B[N];
     if (weights.place[f] >= 0)
@@ -84,7 +84,7 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
                              (1 - lambda) * alpha[P] * along(grad[P], d) -
                              lambda * alpha[N] * along(grad[N], d);
-    rhie_chow_source[f] = jump + dot(n, dot(G_ * dev(smooth), n));
+    rhie_chow_source[f] += jump + dot(n, dot(G_ * dev(smooth), n));
   }
   jump_force_.apply(force, rhie_chow_source, pressure, band);
 }

@@ -42,19 +42,23 @@ SemiImplicitElasticity::SemiImplicitElasticity(const Mesh& mesh, const FaceWeigh
     inertia_.push_back(std::min(0.125, 0.5 / std::max(K[mesh.owner[f]], K[mesh.neighbour[f]])));
 }
 
+void SemiImplicitElasticity::clear(FaceField<Real>& kappa) {
+  for (const Index f : last_faces_) kappa[f] = 0;
+}
+
 void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& force,
                                    const ElasticTerms& solid, const FaceWeights& weights,
                                    const Band& band) {
   constexpr Real explicit_part = 1.5;  // of kappa + m: stable so
   const CellField<Real>& lambda = solid.lambda;
-  for (const Index f : last_faces_) kappa[f] = 0;
   last_faces_ = band.faces();
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     Real l = lambda[P];
     if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
     l *= solid.alpha[f];
-    kappa[f] = implicit_fraction * solid.dt * solid.G * l;
+    const Real k = implicit_fraction * solid.dt * solid.G * l;
+    kappa[f] += k;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];
     if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
@@ -69,14 +73,13 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     // less mu_s, as the solid's own compact viscous term does its part
     if (solid.one_sided) {
       e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});
-      kappa[f] += std::max(e / explicit_part - kappa[f] - inertia, Real{0});
+      kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
     } else if (simplex_) {
       e *= 2;
       kappa[f] += e;
     } else {
       if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
-      e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0},
-                     explicit_part * (kappa[f] + inertia));
+      e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
     }
     // e g ((u_N - u_P) - (L_f . d))
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];

@@ -65,9 +65,12 @@ class SemiImplicitElasticity {
   /// kappa / (dt G alpha lambda_B).
   static constexpr Real implicit_fraction = 0.4;
 
-  /// Collective. kappa_f: the implicit coefficient, on triangles and tetrahedra with i or e added;
-  /// lambda_B linear between the cells, times the face's alpha; zero outside the band of this and
-  /// the last call. force += the explicit rest of the second.
+  /// Takes out what the last `apply` added.
+  void clear(FaceField<Real>& kappa);
+
+  /// Collective. kappa_f += the implicit coefficient, on triangles and tetrahedra with i or e
+  /// added; lambda_B linear between the cells, times the face's alpha; nothing outside the band.
+  /// force += the explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const ElasticTerms& solid,
              const FaceWeights& weights, const Band& band);
 

@@ -29,27 +29,35 @@ Solver::Rejection Solver::rejection_reason(Real dt) const {
     return {"the flow became too fast for the step", Term::convection};
   if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
     return {"the flow is not divergence-free", Term::pressure};
-  if (!body_) return {};
-  if (body_->advected.courant > carried_max)
-    return {"the solid moved by more than a cell", Term::transport};
-  if (body_->advected.remaining > fraction_excess_max)
-    return {"the fraction of solid left [0, 1]", Term::fraction};
-  if (!body_->semi_implicit()) return {};
-  if (dt > elastic_max * elastic_time())
-    return {"the solid became too stiff for the step", Term::elasticity};
-  if (dt > strain_dt(strain_max) || global_max(body_->strain.of_part) > strain_max)
-    return {"the solid strains too much in the step", Term::strain};
-  if (global_min(body_->eigenvalue_min) < eigenvalue_min)
-    return {"the smallest eigenvalue of B fell below 1e-4", Term::eigenvalue};
+  for (const Body& body : bodies_)
+    if (Rejection of_body = rejection_reason(body, dt); !of_body.reason.empty()) return of_body;
   return {};
 }
 
-void Solver::check() {
+Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
+  const std::string which = body.name.empty() ? "the solid" : "solid " + body.name;
+  if (body.advected.courant > carried_max)
+    return {which + " moved by more than a cell", Term::transport, &body};
+  if (body.advected.remaining > fraction_excess_max)
+    return {"the fraction of " + which + " left [0, 1]", Term::fraction, &body};
+  if (!body.semi_implicit()) return {};
+  if (dt > elastic_max * elastic_time(body))
+    return {which + " became too stiff for the step", Term::elasticity, &body};
+  if (dt > strain_dt(strain_max) || global_max(body.strain.of_part) > strain_max)
+    return {which + " strains too much in the step", Term::strain, &body};
+  if (global_min(body.eigenvalue_min) < eigenvalue_min)
+    return {"the smallest eigenvalue of B" + (body.name.empty() ? "" : " of " + which) +
+                " fell below 1e-4",
+            Term::eigenvalue, &body};
+  return {};
+}
+
+void Solver::check(const State& state) {
   const Profile::Call call(profile_, calls_.check);
   Real sum = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state_.u[c]) + state_.p[c] * state_.p[c];
-  if (body_)
-    for (const Index c : body_->band.core()) sum += body_->alpha[c] + trace(body_->B[c]);
+  for (Index c = 0; c < mesh_.n_owned; ++c) sum += norm2(state.u[c]) + state.p[c] * state.p[c];
+  for (const Body& body : bodies_)
+    for (const Index c : body.band.core()) sum += body.alpha[c] + trace(body.B[c]);
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(ErrorKind::numerics, "velocity, pressure or strain is not finite");
 }
@@ -69,14 +77,16 @@ bool Solver::stuck(Real dt) {
 }
 
 Solver::Calls::Calls(Profile& profile)
-    : update_gradients(profile.add("update_gradients", "momentum")),
-      advance_interface(profile.add("advance_interface", "vof")),
-      advect_pressure_jump(profile.add("carry_pressure", "solid")),
+    : advance_interface(profile.add("advance_interface", "vof")),
+      advect_pressure_jump(profile.add("advect_pressure_jump", "solid")),
+      separate_bodies(profile.add("separate_bodies", "vof")),
+      set_pressure_gradient(profile.add("set_pressure_gradient", "momentum")),
+      set_velocity_gradient(profile.add("set_velocity_gradient", "momentum")),
       transport_elastic(profile.add("transport_elastic", "solid")),
       mix_viscosity(profile.add("mix_viscosity", "solid")),
-      set_elastic_force(profile.add("set_elastic_force", "solid")),
-      add_semi_implicit(profile.add("stiffen", "solid")),
-      drive(profile.add("drive", "momentum")),
+      add_elastic_force(profile.add("add_elastic_force", "solid")),
+      add_semi_implicit(profile.add("add_semi_implicit", "solid")),
+      add_body_force(profile.add("add_body_force", "momentum")),
       predict_momentum(profile.add("predict_momentum", "momentum")),
       predict_flux(profile.add("predict_flux", "flux")),
       project(profile.add("project", "pressure")),
@@ -84,11 +94,15 @@ Solver::Calls::Calls(Profile& profile)
       check(profile.add("check", "flux")) {}
 
 void Solver::synchronise() {
-  if (!body_ || body_->t == state_.t) return;
-  advance_interface(state_.t);
-  advect_pressure_jump();
-  update_gradients();
-  transport_elastic();
+  const auto stands_apart = [&](const Body& body) { return body.t != state_.t; };
+  if (std::ranges::none_of(bodies_, stands_apart)) return;
+  for (Body& body : bodies_) advance_interface(body, state_.phi, state_.t);
+  separate_bodies();
+  for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);
+  set_pressure_gradient(grad_p_, state_);
+  set_velocity_gradient(L_, state_);
+  interface_L_f_.clear();
+  for (Body& body : bodies_) transport_elastic(body, L_, state_);
 }
 
 Real Solver::advance(Real dt) {
@@ -108,19 +122,19 @@ Real Solver::advance(Real dt) {
       against = rejection_reason(dt);
       if (against.reason.empty() && stuck(dt)) {
         reason = "a hundred steps in a row of less than a millionth of the largest; " +
-                 diagnosis(holder(dt), dt);
+                 diagnosis({"", holder(dt), body()}, dt);
         break;
       }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerics) throw;
-      against = {error.what(), Term::solve};
+      against = {error.what(), Term::solve, nullptr};
     }
     if (against.reason.empty()) {
       if (i > 0) dt_cap_ = dt, report_.held_back = true;
       return dt;
     }
     reason = against.reason;
-    if (i == halvings) reason += "; " + diagnosis(against.term, dt);
+    if (i == halvings) reason += "; " + diagnosis(against, dt);
     backup_->restore();
     resume();
     ++report_.rejected;

@@ -17,10 +17,19 @@ Kinematics make(const Mesh& mesh, KinematicsKind kind) {
 
 }  // namespace
 
-Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& shape, Real G,
-           KinematicsKind kind, const std::vector<Patch>& mirrors)
+std::string name_of(const Kinematics& kinematics) {
+  if (std::holds_alternative<solid::LeftCauchyGreen>(kinematics)) return "left_cauchy_green";
+  if (std::holds_alternative<solid::ReferenceMap>(kinematics)) return "reference_map";
+  return "log_conformation";
+}
+
+Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
+           const Physics& physics, const std::vector<Patch>& mirrors)
     : mesh(mesh_),
       weights(weights_),
+      name(solid.name),
+      G(solid.G),
+      mu(solid.mu),
       alpha(mesh),
       alpha_mid(mesh),
       B(mesh),
@@ -32,17 +41,21 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const shapes::Shape& 
       reconstruct_scratch(mesh),
       advect_scratch(mesh),
       band(mesh),
-      kinematics(make(mesh, kind)),
+      kinematics(make(mesh, solid.kinematics)),
       elastic_force(mesh, weights, G),
       semi_implicit_elasticity(mesh, weights),
       grad(mesh),
-      filled(vof::fill(alpha, mesh, shape, mirrors)),
+      filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   specks.resize(static_cast<std::size_t>(mesh.n_owned));
-  if (kind == KinematicsKind::log_conformation && solid::has_simplices(mesh))
+  if (solid.kinematics == KinematicsKind::log_conformation && solid::has_simplices(mesh))
     interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
+  if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
+    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
+  if (solid.acceleration != Vec3{})
+    body_force.emplace(mesh, weights, physics.rho * solid.acceleration);
   alpha_mid.assign(alpha);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
@@ -121,17 +134,18 @@ bool Body::count_out() {
 }
 
 void Body::list(io::Snapshot& snapshot) {
-  snapshot.add("alpha", alpha);
-  if (strain_by_flux()) snapshot.add("alpha_mid", alpha_mid);
-  snapshot.add("solid_t", &t);
-  snapshot.add("solid_volume_out", &volume_out);
-  snapshot.add("solid_gone", &gone);
-  snapshot.add("solid_strain_rate", &strain.rate);
-  if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add("Bt", k->Bt);
-  if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add("psi", k->psi);
+  const std::string of = name.empty() ? "" : name + "_";
+  snapshot.add(of + "alpha", alpha);
+  if (strain_by_flux()) snapshot.add(of + "alpha_mid", alpha_mid);
+  snapshot.add(of + "solid_t", &t);
+  snapshot.add(of + "solid_volume_out", &volume_out);
+  snapshot.add(of + "solid_gone", &gone);
+  snapshot.add(of + "solid_strain_rate", &strain.rate);
+  if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add(of + "Bt", k->Bt);
+  if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add(of + "psi", k->psi);
   if (auto* k = std::get_if<solid::ReferenceMap>(&kinematics)) {
-    snapshot.add("map", k->d);
-    snapshot.add("map_is_set", k->is_set);
+    snapshot.add(of + "map", k->d);
+    snapshot.add(of + "map_is_set", k->is_set);
   }
 }
 

@@ -3,17 +3,20 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/io/checkpoint.hpp"
-#include "libfsi/shapes/shapes.hpp"
+#include "libfsi/solid/body_force.hpp"
 #include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/left_cauchy_green.hpp"
 #include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/semi_implicit.hpp"
+#include "libfsi/solid/surface_traction.hpp"
+#include "libfsi/solver/physics.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/fill.hpp"
@@ -25,13 +28,26 @@ namespace fsi {
 /// How the deformation of the solid is tracked.
 using Kinematics =
     std::variant<solid::LeftCauchyGreen, solid::LogConformation, solid::ReferenceMap>;
-enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map };
+
+/// As the options have it.
+std::string name_of(const Kinematics& kinematics);
+
+/// What the surface between two viscosities needs.
+struct TwoViscosities {
+  TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu)
+      : traction(mesh, weights, G, mu), normal(mesh), height(mesh) {}
+  solid::SurfaceTraction traction;
+  CellField<Vec3> normal;  ///< of the surface in a cell, out of the solid
+  CellField<Real> height;  ///< of the cell's centre above the surface
+};
 
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
-  /// Collective. Fills the undeformed shape; mirrors: planes of symmetry, which may cut it.
-  Body(const Mesh& mesh, const FaceWeights& weights, const shapes::Shape& shape, Real G,
-       KinematicsKind kind, const std::vector<Patch>& mirrors = {});
+  /// Collective. Fills the undeformed shape; mirrors: planes of symmetry, which may cut it. A
+  /// viscosity that is not the fluid's gets a traction of its own at the surface, but for
+  /// ratios past SurfaceTraction::ratio_max and for the paper's kinematics.
+  Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
+       const std::vector<Patch>& mirrors = {});
 
   /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
   /// a reference map, which B alone does not tell.
@@ -64,10 +80,8 @@ struct Body {
   bool strain_by_flux() const {
     return !interface_gradient && std::holds_alternative<solid::LogConformation>(kinematics);
   }
-  /// The cells that `sided` works on; with `sided` only.
-  const Band& strained_cells() const {
-    return std::get<solid::LogConformation>(kinematics).known();
-  }
+  /// The cells that `interface_gradient` works on; with that only.
+  const Band& strain_cells() const { return std::get<solid::LogConformation>(kinematics).known(); }
   /// Where in a step the solid stands when the momentum equation is solved: 1 at its end.
   Real time_offset() const {
     return std::visit([](const auto& k) { return k.time_offset; }, kinematics);
@@ -91,6 +105,8 @@ struct Body {
 
   const Mesh& mesh;
   const FaceWeights& weights;
+  std::string name;
+  Real G, mu;                   ///< shear modulus, dynamic viscosity
   CellField<Real> alpha;        ///< volume fraction of the solid
   CellField<Real> alpha_mid;    ///< mean of it and of that before the last step
   CellField<SymTensor> B;       ///< on the band's cells, zero elsewhere; owned and halo
@@ -99,6 +115,7 @@ struct Body {
   CellField<Real> lambda;       ///< largest eigenvalue of B; owned and halo
   BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, by set_touched
   Real t = 0;                   ///< time of alpha and B
+  Real dt = 0;                  ///< length of the last step of alpha and B
   solid::Strain strain;         ///< in the last step
   Real eigenvalue_min = 1;      ///< of B on this rank
   vof::Interface interface;     ///< planes of alpha
@@ -108,6 +125,8 @@ struct Body {
   Kinematics kinematics;
   solid::ElasticForce elastic_force;
   solid::SemiImplicitElasticity semi_implicit_elasticity;
+  std::optional<TwoViscosities> two_viscosities;  ///< where they differ
+  std::optional<solid::BodyForce> body_force;     ///< where there is one
   std::optional<solid::InterfaceGradient>
       interface_gradient;                        ///< where the velocity gradient needs it
   std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, beside it

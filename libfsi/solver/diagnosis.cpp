@@ -54,21 +54,23 @@ std::string Solver::at_worst(const Figure& figure, const char* what, const char*
 Solver::Term Solver::holder(Real dt) const {
   Real most = dt / advective_dt(1);
   Term term = Term::convection;
-  if (!body_) return term;
+  if (bodies_.empty()) return term;
   if (const Real part = dt / elastic_dt(); part > most) most = part, term = Term::elasticity;
   constexpr Real strain = 0.5;
   if (const Real part = dt / strain_dt(strain); part > most) term = Term::strain;
   return term;
 }
 
-std::string Solver::diagnosis(Term term, Real dt) {
+std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
+  const Term term = rejection.term;
   if (term == Term::pressure) {
     flow::divergence(divergence_, state_.phi, mesh_);
     return at_worst([&](Index c) { return dt * std::abs(divergence_[c]); },
                     "the largest change of volume that the pressure leaves, in parts of the cell,",
                     "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
   }
-  if (term != Term::convection && term != Term::solve) return diagnosis_of_solid(term, dt);
+  if (term != Term::convection && term != Term::solve)
+    return diagnosis_of_solid(*rejection.body, term, dt);
   const auto courant = [&](Index c) { return dt * flow::courant_rate(state_.phi, mesh_, c); };
   const auto lost = [&](Index c) {
     Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);
@@ -86,26 +88,24 @@ std::string Solver::diagnosis(Term term, Real dt) {
                speed.x.y, speed.x.z);
 }
 
-std::string Solver::diagnosis_of_solid(Term term, Real dt) {
+std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) const {
   // The solid's figures are of the cells that hold some of it.
   const auto of_solid = [&](const auto& figure) {
-    return [&](Index c) { return body_->alpha[c] > 0 ? figure(c) : 0; };
+    return [&](Index c) { return body.alpha[c] > 0 ? figure(c) : 0; };
   };
-  const auto courant = [&](Index c) {
-    return solid_dt_ * flow::courant_rate(state_.phi, mesh_, c);
-  };
+  const auto courant = [&](Index c) { return body.dt * flow::courant_rate(state_.phi, mesh_, c); };
   const auto waves = [&](Index c) {
-    return dt / solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, {&c, 1});
+    return dt / solid::elastic_time(body.lambda, body.G, physics_.rho, mesh_, {&c, 1});
   };
   const auto crushed = [&](Index c) {
-    return 1 / std::max(eigen(body_->B[c]).value[0], std::numeric_limits<Real>::min());
+    return 1 / std::max(eigen(body.B[c]).value[0], std::numeric_limits<Real>::min());
   };
   switch (term) {
     case Term::transport:
       return at_worst(of_solid(courant), "the largest Courant number of the solid's step",
                       "the transport of the solid limits");
     case Term::fraction:
-      return at_worst([&](Index c) { return std::max(body_->alpha[c] - 1, -body_->alpha[c]); },
+      return at_worst([&](Index c) { return std::max(body.alpha[c] - 1, -body.alpha[c]); },
                       "the largest excess of the fraction", "the transport of the solid limits");
     case Term::elasticity:
       return at_worst(of_solid(waves), "the largest number of cells that the elastic wave passes",

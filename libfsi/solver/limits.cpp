@@ -18,14 +18,16 @@ Real Solver::advective_dt(Real courant) const {
 }
 
 Real Solver::carried_dt() const {
-  Real rate = 0;
-  if (body_)
-    for (const Index c : body_->band.cells())
+  Real least = std::numeric_limits<Real>::max();
+  for (const Body& body : bodies_) {
+    Real rate = 0;
+    for (const Index c : body.band.cells())
       rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
-  rate = global_max(rate);
-  // body.t + solid_dt = t + ahead dt
-  return rate > 0 ? (1 / rate - (state_.t - body_->t)) / body_->time_offset()
-                  : std::numeric_limits<Real>::max();
+    rate = global_max(rate);
+    // body.t + body.dt = t + time_offset dt
+    if (rate > 0) least = std::min(least, (1 / rate - (state_.t - body.t)) / body.time_offset());
+  }
+  return least;
 }
 
 Real Solver::boundary_dt(Real courant) const {
@@ -37,18 +39,22 @@ Real Solver::boundary_dt(Real courant) const {
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 
-Real Solver::elastic_time() const {
+Real Solver::elastic_time(const Body& body) const {
   return global_min(
-      solid::elastic_time(body_->lambda, physics_.G, physics_.rho, mesh_, body_->band.core()));
+      solid::elastic_time(body.lambda, body.G, physics_.rho, mesh_, body.band.core()));
 }
 
 Real Solver::elastic_dt() const {
-  if (!body_) return std::numeric_limits<Real>::max();
-  return body_->elastic_number() * elastic_time();
+  Real least = std::numeric_limits<Real>::max();
+  for (const Body& body : bodies_)
+    least = std::min(least, body.elastic_number() * elastic_time(body));
+  return least;
 }
 
 Real Solver::strain_dt(Real strain) const {
-  const Real rate = global_max(body_ ? body_->strain.rate : 0);
+  Real rate = 0;
+  for (const Body& body : bodies_) rate = std::max(rate, body.strain.rate);
+  rate = global_max(rate);
   return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 

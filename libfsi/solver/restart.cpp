@@ -33,11 +33,11 @@ void Solver::list(io::Snapshot& snapshot) {
   for (flow::Openings::One& opening : openings_.all()) list_opening(snapshot, opening);
   snapshot.add("dt_cap", &dt_cap_);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
-  if (body_) body_->list(snapshot);
+  for (Body& body : bodies_) body.list(snapshot);
 }
 
 void Solver::resume() {
-  if (body_) body_->resume();
+  for (Body& body : bodies_) body.resume();
 }
 
 }  // namespace fsi

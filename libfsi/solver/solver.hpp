@@ -1,6 +1,7 @@
 #pragma once
 // The step: the only place that knows the order of the equations.
 
+#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -18,21 +19,11 @@
 #include "libfsi/flow/openings.hpp"
 #include "libfsi/flow/projection.hpp"
 #include "libfsi/operators/gradient.hpp"
-#include "libfsi/solid/body_force.hpp"
-#include "libfsi/solid/surface_traction.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
+#include "libfsi/vof/separate.hpp"
 
 namespace fsi {
-
-/// Material constants, in consistent units.
-struct Physics {
-  Real rho = 1;               ///< density of fluid and solid
-  Real mu_f = 0.01;           ///< dynamic viscosity of the fluid
-  Real mu_s = 0.01;           ///< of the solid
-  Real G = 0;                 ///< shear modulus of the solid
-  Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
-};
 
 /// What drives and how the flow is solved.
 struct FlowSetup {
@@ -75,8 +66,11 @@ class Solver {
   /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free.
   void start(const std::function<Vec3(const Vec3&)>& u_0);
 
-  /// Collective. Puts a solid of that undeformed shape into the fluid; before the first step.
-  /// Errors: Error{input} where it is empty or leaves the mesh.
+  /// Collective. Puts a solid into the fluid; before the first step, any number of times, each
+  /// with a name of its own where there are several. Errors: Error{input} where it is empty, leaves
+  /// the mesh, overlaps another or has another's name.
+  void put_solid(const Solid& solid);
+  /// The same of G, mu_s and the acceleration of `Physics`.
   void put_solid(const shapes::Shape& shape,
                  KinematicsKind kind = KinematicsKind::log_conformation);
 
@@ -117,9 +111,14 @@ class Solver {
   const Mesh& mesh() const { return mesh_; }
   State& state() { return state_; }
   const State& state() const { return state_; }
-  /// The solid; empty in a scene without one.
-  const std::optional<Body>& body() const { return body_; }
-  std::optional<Body>& body() { return body_; }
+  /// The solids, in the order they were put in.
+  const std::deque<Body>& bodies() const { return bodies_; }
+  std::deque<Body>& bodies() { return bodies_; }
+  /// The first of them; none in a scene without.
+  const Body* body() const { return bodies_.empty() ? nullptr : &bodies_.front(); }
+  Body* body() { return bodies_.empty() ? nullptr : &bodies_.front(); }
+  /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
+  Real overlap() const { return separation_ ? separation_->overlap() : 0; }
   const Physics& physics() const { return physics_; }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
@@ -140,28 +139,35 @@ class Solver {
   Real mean_velocity() const { return forcing_ ? forcing_->mean(state_.phi) : 0; }
 
  private:
-  void update_gradients();
-  void advance_interface(Real t);
-  void advect_pressure_jump();
-  void transport_elastic();
-  void mix_viscosity();
-  void set_elastic_force();
-  void add_semi_implicit(Real dt);
-  void drive(Real t);
-  void predict_momentum(Real dt);
-  void predict_flux(Real dt);
-  void project(Real dt);
-  void hold_mean_velocity(Real dt);
-  void check();
-  /// Velocity at the boundary at time t; L_ and L_f_ of u and it, where they are needed.
-  void set_gradient(BoundaryField<Vec3>& u_b, Real t);
-  /// Between cells whose L_ is that of one side of the solid's surface L_f_ is its mean.
-  void take_interface_gradient();
-  /// L_ = grad u on the listed owned cells; its halo.
-  void set_L(const CellField<Vec3>& u, std::span<const Index> cells);
+  // The calls of a step: doc/theory/step.md. What each sets stands first.
+  void advance_interface(Body& body, const FaceField<Real>& phi, Real t);
+  void advect_pressure_jump(CellField<Real>& p, const Body& body);
+  void separate_bodies();
+  void set_pressure_gradient(CellField<Vec3>& grad_p, const State& state);
+  void set_velocity_gradient(CellField<Tensor>& L, const State& state);
+  void clear_forces();
+  void transport_elastic(Body& body, CellField<Tensor>& L, const State& state);
+  void mix_viscosity(FaceField<Real>& mu);
+  void add_elastic_force(CellField<Vec3>& force, Body& body);
+  void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt);
+  void add_body_force(CellField<Vec3>& force, Real t);
+  void predict_momentum(CellField<Vec3>& u, Real dt);
+  void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
+  void project(State& state, Real dt);
+  void hold_mean_velocity(State& state, Real dt);
+  void check(const State& state);
+  /// What one body adds to them.
+  void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body, Real dt);
+  /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
+  void set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t);
+  /// Between cells whose L is that of one side of the solid's surface L_f_ is its mean.
+  void take_interface_gradient(const Body& body, const CellField<Tensor>& L);
+  /// L = grad u on the listed owned cells; its halo.
+  void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, std::span<const Index> cells);
   /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
   /// (solenoidal.hpp); owned and halo.
-  void set_velocity_of_fluxes(CellField<Vec3>& u, std::span<const Index> cells);
+  void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
+                              std::span<const Index> cells);
   /// What may end a step: the equation whose limit is passed, or what was thrown.
   enum class Term {
     none,
@@ -177,48 +183,43 @@ class Solver {
   struct Rejection {
     std::string reason{};
     Term term = Term::none;
+    const Body* body = nullptr;  ///< whose limit it is
   };
   /// Against what a step of dt leaves behind; empty where there is nothing.
   Rejection rejection_reason(Real dt) const;
+  Rejection rejection_reason(const Body& body, Real dt) const;
   /// Where the state as it stands is worst in that respect: a sentence with figure, place and cell.
-  std::string diagnosis(Term term, Real dt);
-  std::string diagnosis_of_solid(Term term, Real dt);
+  std::string diagnosis(const Rejection& rejection, Real dt);
+  std::string diagnosis_of_solid(const Body& body, Term term, Real dt) const;
   template <class Figure>
   std::string at_worst(const Figure& figure, const char* what, const char* why) const;
   /// What holds a step as short as dt.
   Term holder(Real dt) const;
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
-  bool mu_varies() const { return body_ && physics_.mu_s != physics_.mu_f; }
+  /// What the bodies ask of a step, set as they are put in.
+  struct Modes {
+    bool mu_varies = false;    ///< some solid's viscosity is not the fluid's
+    bool stiff = false;        ///< elasticity is partly implicit
+    bool flux_strain = false;  ///< the face flux strains some solid
+    bool one_sided = false;    ///< some solid's L is of one side of its surface
+    Real G = 0;                ///< the largest
+  };
   /// Whether the momentum equation needs the velocity gradient in all cells.
   bool needs_L() const {
-    return weights_.uneven || momentum_.reads_L() || mu_varies() ||
-           (body_ && body_->interface_gradient);
+    return weights_.uneven || momentum_.reads_L() || modes_.mu_varies || modes_.one_sided;
   }
   /// What the momentum equation takes implicitly besides the viscosity.
-  const FaceField<Real>& implicit() const {
-    return two_viscosities_ ? two_viscosities_->stiff : kappa_;
-  }
-  bool stiff() const { return body_ && body_->semi_implicit() && physics_.G > 0; }
-  Real elastic_time() const;
+  const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
+  Real elastic_time(const Body& body) const;
   void hold_backup();
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
-    int update_gradients, advance_interface, advect_pressure_jump, transport_elastic, mix_viscosity,
-        set_elastic_force, add_semi_implicit, drive, predict_momentum, predict_flux, project,
+    int advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
+        set_velocity_gradient, transport_elastic, mix_viscosity, add_elastic_force,
+        add_semi_implicit, add_body_force, predict_momentum, predict_flux, project,
         hold_mean_velocity, check;
-  };
-
-  /// What the surface between two viscosities needs.
-  struct TwoViscosities {
-    TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G,
-                   const solid::Viscosities& mu)
-        : traction(mesh, weights, G, mu), normal(mesh), height(mesh), stiff(mesh) {}
-    solid::SurfaceTraction traction;
-    CellField<Vec3> normal;  ///< of the surface in a cell, out of the solid
-    CellField<Real> height;  ///< of the cell's centre above the surface
-    FaceField<Real> stiff;   ///< kappa_ and that of the traction
   };
 
   const Mesh& mesh_;
@@ -243,12 +244,22 @@ class Solver {
   flow::Loads loads_;
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
-  std::optional<Body> body_;
-  std::optional<solid::BodyForce> body_force_;     // where there is one
-  std::optional<TwoViscosities> two_viscosities_;  // where they differ
-  bool leaves_ = false;                            // whether a solid may leave the mesh
+  std::deque<Body> bodies_;
+  Modes modes_;
+  std::optional<FaceField<Real>> stiff_;       // kappa_ and what two viscosities add to it
+  std::optional<CellField<Real>> mixed_mu_;    // of the cells, where there are several solids
+  std::optional<vof::Separation> separation_;  // where there are several solids
+  std::vector<CellField<Real>*> alphas_;       // of the bodies
+  std::vector<Index> shared_;                  // owned cells that several bodies may hold
+  /// What strains a solid by the flux: velocity with what the fluxes tell besides, its gradient.
+  struct StrainByFlux {
+    explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
+    CellField<Vec3> u;
+    CellField<Tensor> L;
+  };
+  std::optional<StrainByFlux> by_flux_;
+  bool leaves_ = false;  // whether a solid may leave the mesh
   std::optional<Backup> backup_;
-  Real solid_dt_ = 0;                               // length of the solid's step
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
   int tiny_steps_ = 0;                              // in a row

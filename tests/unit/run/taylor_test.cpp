@@ -20,7 +20,7 @@ Error measured(const Mesh& mesh, Real z) {
       shapes::rotate(shapes::ellipsoid({0.27, 0.18, 0.2}), {0, 0, 1}, angle * shapes::pi / 180),
       {0.513, 0.497, z});
   const FaceWeights weights(mesh);
-  const Body body(mesh, weights, shape, 1, KinematicsKind::log_conformation);
+  const Body body(mesh, weights, {.shape = shape, .G = 1}, {});
   const CellField<Vec3> u(mesh);
   const Taylor t = taylor(body, u, {0.5, 0.5, z}, 0);
   return {std::abs(t.deformation / 0.2 - 1), std::abs(t.angle - angle)};
@@ -44,8 +44,8 @@ TEST(Taylor, Ellipsoid) {
 TEST(Taylor, MovedOnWithTheFlow) {
   const Mesh mesh = test::box_mesh({.n = {64, 64, 0}});
   const FaceWeights weights(mesh);
-  const Body body(mesh, weights, shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0}), 1,
-                  KinematicsKind::log_conformation);
+  const Body body(mesh, weights,
+                  {.shape = shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0}), .G = 1}, {});
   CellField<Vec3> u(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c) u[c] = {mesh.C[c].y, 0, 0};
   // a circle sheared by g: D = g / 2 + O(g^3), at 45 degrees - g / 4

@@ -287,6 +287,7 @@ struct Stiff {
   void apply() {
     s.band.rebuild(s.alpha, 0.5);
     const solid::ElasticTerms stiff{lambda, share, u, L, s.alpha, G, rho, mu_s, dt, kink};
+    stiffness.clear(kappa);
     stiffness.apply(kappa, s.force, stiff, s.weights, s.band);
   }
   static constexpr Real rho = 2, dt = 0.1, h = 0.125;

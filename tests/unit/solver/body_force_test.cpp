@@ -69,7 +69,7 @@ Real excess(Index n) {
   const FaceWeights weights(mesh);
   PressureStencil stencil(mesh, weights, std::vector<bool>(mesh.patches.size(), false));
   const shapes::Shape disc = shapes::translate(shapes::sphere(0.21), {0.53, 0.47, 0});
-  const Body body(mesh, weights, disc, 1, KinematicsKind::log_conformation);
+  const Body body(mesh, weights, {.shape = disc, .G = 1}, {});
   solid::BodyForce weight(mesh, weights, {0, -g, 0});
   CellField<Vec3> force(mesh);
   FaceField<Real> rhie_chow_source(mesh);

@@ -18,8 +18,9 @@ TEST(Calls, EveryOneOfAStepHasALogEvent) {
   Solver solver(mesh, {}, {});
   solver.start([](const Vec3&) { return Vec3{}; });
   for (const std::string name :
-       {"update_gradients", "advance_interface", "transport_elastic", "mix_viscosity",
-        "set_elastic_force", "stiffen", "drive", "predict_momentum", "predict_flux", "project",
+       {"advance_interface", "separate_bodies", "advect_pressure_jump", "set_pressure_gradient",
+        "set_velocity_gradient", "transport_elastic", "mix_viscosity", "add_elastic_force",
+        "add_semi_implicit", "add_body_force", "predict_momentum", "predict_flux", "project",
         "hold_mean_velocity", "check"}) {
     PetscLogEvent event = -1;
     FSI_PETSC(PetscLogEventGetId(("fsi " + name).c_str(), &event));

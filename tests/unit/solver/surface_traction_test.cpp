@@ -23,8 +23,8 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
                         return x + Vec3{0, wave * x.y * (2 - x.y) * std::sin(4 * x.x), 0};
                       }});
   const FaceWeights weights(mesh);
-  Body body(mesh, weights, shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), 0,
-            KinematicsKind::log_conformation);
+  Body body(mesh, weights,
+            {.shape = shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), .G = 0}, {});
   const auto velocity = [&](const Vec3& x) {
     const Real y = x.y - y_0;
     return Vec3{k * x.x + y / (y < 0 ? mu.solid : mu.fluid), -k * y, 0};

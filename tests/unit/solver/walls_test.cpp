@@ -90,7 +90,7 @@ TEST(Walls, AreTouchedByTheSolidAtThem) {
   const FaceWeights weights(mesh);
   constexpr Real film = 0.3 / n;
   const auto layer = shapes::translate(shapes::box({200, 2 - 2 * film, 200}), {0, 0, 0});
-  Body body(mesh, weights, layer, 1, KinematicsKind::log_conformation);
+  Body body(mesh, weights, {.shape = layer, .G = 1}, {});
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.n_owned; ++c) cells.push_back(c);
   std::vector<char> open(static_cast<std::size_t>(mesh.n_boundary()), 0);

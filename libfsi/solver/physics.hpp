@@ -1,0 +1,32 @@
+#pragma once
+// What fluid and solids are made of.
+
+#include <string>
+
+#include "libfsi/shapes/shapes.hpp"
+
+namespace fsi {
+
+/// Material constants, in consistent units; those of the solid where a scene has one.
+struct Physics {
+  Real rho = 1;               ///< density of fluid and solid
+  Real mu_f = 0.01;           ///< dynamic viscosity of the fluid
+  Real mu_s = 0.01;           ///< of the solid
+  Real G = 0;                 ///< shear modulus of the solid
+  Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
+};
+
+/// How the deformation of a solid is tracked.
+enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map };
+
+/// A solid as it is put into the fluid, in consistent units.
+struct Solid {
+  shapes::Shape shape;  ///< undeformed
+  Real G = 0;           ///< shear modulus
+  Real mu = 0.01;       ///< dynamic viscosity
+  std::string name{};   ///< of its columns and fields; may be empty where there is one solid only
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Vec3 acceleration{};  ///< of a body force that acts on this solid alone
+};
+
+}  // namespace fsi

@@ -1,0 +1,103 @@
+#include "libfsi/vof/separate.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi::vof {
+namespace {
+
+constexpr Real too_much = 1e-12;  // excess that is left alone
+
+Real sum(std::span<CellField<Real>* const> alphas, Index c) {
+  Real total = 0;
+  for (const CellField<Real>* alpha : alphas) total += (*alpha)[c];
+  return total;
+}
+
+Real room(std::span<CellField<Real>* const> alphas, Index c) {
+  return std::max(Real{0}, 1 - sum(alphas, c));
+}
+
+Index beyond(const Mesh& mesh, Index f, Index c) {
+  return mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f];
+}
+
+}  // namespace
+
+Separation::Separation(const Mesh& mesh, std::size_t bodies) : mesh_(mesh) {
+  for (std::size_t i = 0; i < bodies; ++i) rate_.emplace_back(mesh);
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    if (std::max(mesh.owner[f], mesh.neighbour[f]) >= mesh.n_owned) rim_.push_back(f);
+}
+
+void Separation::offer(std::span<CellField<Real>* const> alphas, Index c) {
+  const Real total = sum(alphas, c);
+  if (!(total > 1 + too_much)) return;
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const CellField<Real>& alpha = *alphas[i];
+    if (alpha[c] <= 0) continue;
+    Real open = 0, least = std::numeric_limits<Real>::max();
+    for (const Index f : mesh_.cell_faces[c]) {
+      if (f >= mesh_.n_internal) continue;
+      const Index n = beyond(mesh_, f, c);
+      const Real r = room(alphas, n);
+      if (alpha[n] <= 0 || r <= 0) continue;
+      open += r, least = std::min(least, mesh_.V[n]);
+    }
+    if (open <= 0) continue;
+    // A cell takes from all its faces; what it cannot take now stays for the next round.
+    constexpr Real most = 0.25;
+    const Real given = mesh_.V[c] * (total - 1) * alpha[c] / total;
+    rate_[i][c] = std::min(given / open, most * least);
+    givers_.push_back(c);
+  }
+}
+
+void Separation::add_from(std::span<CellField<Real>* const> alphas, Index giver, Index n) {
+  const Real r = room(alphas, n);
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const Real moved = rate_[i][giver] * r;
+    if (moved <= 0 || (*alphas[i])[n] <= 0) continue;
+    if (giver < mesh_.n_owned) moves_.push_back({giver, i, -moved});
+    if (n < mesh_.n_owned) moves_.push_back({n, i, moved});
+  }
+}
+
+bool Separation::apply(std::span<CellField<Real>* const> alphas, std::span<const Index> cells) {
+  constexpr int rounds = 4;
+  bool moved = false;
+  for (int round = 0; round <= rounds; ++round) {
+    overlap_ = 0;
+    for (const Index c : cells) overlap_ = std::max(overlap_, sum(alphas, c) - 1);
+    overlap_ = global_max(overlap_);
+    if (overlap_ <= too_much || round == rounds) break;
+    for (const Index c : givers_)
+      for (CellField<Real>& rate : rate_) rate[c] = 0;
+    givers_.clear(), moves_.clear();
+    for (const Index c : cells) offer(alphas, c);
+    for (CellField<Real>& rate : rate_) mesh_.halo.update(rate);
+    Index last = -1;
+    for (const Index c : givers_) {
+      if (c == last) continue;  // listed once a body
+      last = c;
+      for (const Index f : mesh_.cell_faces[c])
+        if (f < mesh_.n_internal) add_from(alphas, c, beyond(mesh_, f, c));
+    }
+    for (const Index f : rim_) {
+      const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+      add_from_halo(alphas, P, N), add_from_halo(alphas, N, P);
+    }
+    for (const Move& m : moves_) (*alphas[m.body])[m.cell] += m.volume / mesh_.V[m.cell];
+    for (CellField<Real>* alpha : alphas) mesh_.halo.update(*alpha);
+    moved = true;
+  }
+  return moved;
+}
+
+void Separation::add_from_halo(std::span<CellField<Real>* const> alphas, Index giver, Index n) {
+  if (giver >= mesh_.n_owned && n < mesh_.n_owned) add_from(alphas, giver, n);
+}
+
+}  // namespace fsi::vof

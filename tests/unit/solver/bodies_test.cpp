@@ -1,0 +1,110 @@
+// Several solids in one flow.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+Solid disc(const std::string& name, const Vec3& centre, Real G, Real mu = 0.1) {
+  return {.shape = shapes::translate(shapes::sphere(0.15), centre), .G = G, .mu = mu, .name = name};
+}
+
+struct Place {
+  Real volume;
+  Vec3 centre;
+};
+Place place(const Body& body) {
+  std::array<Sum, 4> sums;
+  for (Index c = 0; c < body.mesh.n_owned; ++c) {
+    const Real V = body.mesh.V[c] * body.alpha[c];
+    sums[0].add(V);
+    for (int i = 0; i < 3; ++i) sums[i + 1].add(V * body.mesh.C[c][i]);
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  return {total[0], Vec3{total[1], total[2], total[3]} / total[0]};
+}
+
+struct Scene {
+  explicit Scene(bool simplex)
+      : mesh(test::read_box({.n = {40, 32, 0},
+                             .length = {1.25, 1, 1},
+                             .simplex = simplex,
+                             .periodic = {"left", "right"}})),
+        solver(mesh, {.rho = 1, .mu_f = 0.1},
+               {.conditions = {{"top", Wall{{0.5, 0, 0}}}, {"bottom", Wall{{-0.5, 0, 0}}}}}) {
+    solver.start([](const Vec3& x) { return Vec3{x.y - 0.5, 0, 0}; });
+  }
+  const Mesh mesh;
+  Solver solver;
+};
+
+// Two discs in shear are pressed together and roll over each other: they stay two, each keeps its
+// volume, and as the scene is its own image under a half turn, so are they.
+TEST(Bodies, PassEachOtherAndKeepTheirVolumes) {
+  for (const bool simplex : {false, true}) {
+    Scene scene(simplex);
+    scene.solver.put_solid(disc("one", {0.4, 0.56, 0}, 2));
+    scene.solver.put_solid(disc("two", {0.85, 0.44, 0}, 2));
+    const Place one = place(scene.solver.bodies()[0]), two = place(scene.solver.bodies()[1]);
+    for (int i = 0; i < 250; ++i) ASSERT_GT(scene.solver.advance(0.02), 0);
+    const Place a = place(scene.solver.bodies()[0]), b = place(scene.solver.bodies()[1]);
+    EXPECT_NEAR(a.volume / one.volume, 1, 1e-12);
+    EXPECT_NEAR(b.volume / two.volume, 1, 1e-12);
+    EXPECT_GT(a.centre.x, b.centre.x);  // they have passed
+    EXPECT_LE(scene.solver.overlap(), 1e-3);
+    if (simplex) continue;
+    EXPECT_NEAR(a.centre.x + b.centre.x, 1.25, 1e-6);
+    EXPECT_NEAR(a.centre.y + b.centre.y, 1, 1e-6);
+  }
+}
+
+// A second solid of the fluid's own stuff changes nothing but by what its interface costs.
+TEST(Bodies, OneOfFluidIsNotFelt) {
+  Scene alone(false), both(false);
+  alone.solver.put_solid(disc("", {0.4, 0.56, 0}, 2));
+  both.solver.put_solid(disc("soft", {0.4, 0.56, 0}, 2));
+  both.solver.put_solid(disc("none", {0.85, 0.44, 0}, 0));
+  for (int i = 0; i < 50; ++i) {
+    alone.solver.step(0.02);
+    both.solver.step(0.02);
+  }
+  const Vec3 apart = place(alone.solver.bodies()[0]).centre - place(both.solver.bodies()[0]).centre;
+  EXPECT_LE(norm(apart), 1e-10);
+}
+
+TEST(Bodies, ViscositiesMixByTheirFractions) {
+  Scene scene(false);
+  scene.solver.put_solid(disc("thick", {0.4, 0.5, 0}, 1, 0.15));
+  scene.solver.put_solid(disc("thin", {0.85, 0.5, 0}, 1, 0.06));
+  for (int i = 0; i < 20; ++i) ASSERT_GT(scene.solver.advance(0.02), 0);
+  EXPECT_NEAR(place(scene.solver.bodies()[0]).volume, place(scene.solver.bodies()[1]).volume, 1e-4);
+}
+
+TEST(Bodies, RefusesASecondOfTheSameNameOrPlace) {
+  const auto sentence = [](const Solid& second) {
+    Scene scene(false);
+    scene.solver.put_solid(disc("one", {0.4, 0.5, 0}, 1));
+    try {
+      scene.solver.put_solid(second);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(sentence(disc("one", {0.8, 0.5, 0}, 1)), "two solids have the name \"one\"");
+  EXPECT_EQ(sentence(disc("two", {0.5, 0.5, 0}, 1)),
+            "solid \"two\" overlaps solid \"one\" at the start: move one of them");
+  EXPECT_EQ(sentence(disc("two", {0.8, 0.5, 0}, 1)), "");
+}
+
+}  // namespace
+}  // namespace fsi

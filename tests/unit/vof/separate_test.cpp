@@ -1,0 +1,52 @@
+// Cells that hold too much of two bodies.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/vof/separate.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+Real volume(const CellField<Real>& alpha, const Mesh& mesh) {
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c) sum.add(mesh.V[c] * alpha[c]);
+  return sum.total();
+}
+
+// Two bodies meet along x = 0.5 in a film of half a cell; in some cells of it they are a little too
+// much. What is too much goes to the cells beside, and each keeps its volume.
+TEST(Separate, MovesWhatIsTooMuchAndKeepsTheVolumes) {
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {9, 9, 0}, .simplex = simplex});
+    CellField<Real> left(mesh), right(mesh);
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_cells; ++c) {
+      const Vec3& x = mesh.C[c];
+      const bool film = std::abs(x.x - 0.5) < 0.06;
+      left[c] = film ? 0.45 : x.x < 0.5 ? 1 : 0;
+      right[c] = film ? 0.45 : x.x > 0.5 ? 1 : 0;
+      if (film && std::abs(x.y - 0.5) < 0.06) left[c] += 0.13;
+      if (film && c < mesh.n_owned) cells.push_back(c);
+    }
+    const Real of_left = volume(left, mesh), of_right = volume(right, mesh);
+    vof::Separation separation(mesh, 2);
+    const std::array alphas{&left, &right};
+    EXPECT_TRUE(separation.apply(alphas, cells));
+    EXPECT_NEAR(volume(left, mesh), of_left, 1e-14);
+    EXPECT_NEAR(volume(right, mesh), of_right, 1e-14);
+    EXPECT_LE(separation.overlap(), 1e-12);
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      EXPECT_LE(left[c] + right[c], 1 + 1e-12);
+      EXPECT_GE(std::min(left[c], right[c]), 0);
+    }
+    EXPECT_FALSE(separation.apply(alphas, cells));
+  }
+}
+
+}  // namespace
+}  // namespace fsi
