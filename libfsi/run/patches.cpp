@@ -46,7 +46,7 @@ class PatchOptions {
     const std::string text = options_.text_or_file(
         name_ + key, fallback, help + "; a number or a csv file of time and value");
     const Real period =
-        real("period", 0, "after which the values of a csv file come again; 0: never", "time");
+        real("period", 0, "time after which the values of a csv file come again; 0: never", "time");
     char* end = nullptr;
     const Real value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() && *end == '\0' && std::isfinite(value)) return value;
@@ -178,8 +178,9 @@ void place_solid(SolidSetup& solid, Options& options, const Mesh& mesh) {
       options.list("solid_path",
                    "two patches whose centre line the solid stands on, in place of "
                    "-solid_center");
-  const Real s = options.real(
-      "solid_arc_length", 1, {.help = "along -solid_path, from its first patch", .unit = "length"});
+  const Real s =
+      options.real("solid_arc_length", 1,
+                   {.help = "way along -solid_path, from its first patch", .unit = "length"});
   if (path.empty() || options.help() || !solid.shape) return;
   require(path.size() == 2, "option -solid_path needs two patches: from,to");
   require(!options.given("solid_axis"), "options -solid_path and -solid_axis exclude each other");
