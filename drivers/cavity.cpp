@@ -8,8 +8,8 @@ RunStatus body() {
   // 1 parameters
   Options options("fsi-cavity", "flow in a closed cavity whose lid slides");
   Case setup = read_case(options, "cavity");
-  const Real lid =
-      options.real("lid_velocity", 1, {.help = "of patch top, along x", .unit = "velocity"});
+  const Real lid = options.real("lid_velocity", 1,
+                                {.help = "velocity of patch top, along x", .unit = "velocity"});
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
 

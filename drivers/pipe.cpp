@@ -8,8 +8,9 @@ RunStatus body() {
   // 1 parameters
   Options options("fsi-pipe", "flow through a periodic pipe at constant mean velocity");
   Case setup = read_case(options, "pipe", {1, 0, 0});
-  const Real mean = options.real("flow_mean_velocity", 0.5,
-                                 {.help = "along x, held exactly", .unit = "velocity"});
+  const Real mean =
+      options.real("flow_mean_velocity", 0.5,
+                   {.help = "mean velocity along x, held exactly", .unit = "velocity"});
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
 

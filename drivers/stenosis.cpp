@@ -8,8 +8,9 @@ RunStatus body() {
   // 1 parameters
   Options options("fsi-stenosis", "flow through a constricted pipe between two pressures");
   Case setup = read_case(options, "stenosis", {1, 0, 0});
-  const Real p_in = options.real("inlet_pressure", 5.5,
-                                 {.help = "of patch inlet; the outlet has 0", .unit = "pressure"});
+  const Real p_in =
+      options.real("inlet_pressure", 5.5,
+                   {.help = "pressure at patch inlet; the outlet has 0", .unit = "pressure"});
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
 

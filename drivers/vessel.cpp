@@ -9,8 +9,8 @@ RunStatus body() {
   // 1 parameters
   Options options("fsi-vessel", "flow through any vessel, conditions by the patches' names");
   Case setup = read_case(options, "vessel");
-  const Vec3 force =
-      options.vec3("flow_body_force", {}, {.help = "on fluid and solid", .unit = "force / volume"});
+  const Vec3 force = options.vec3("flow_body_force", {},
+                                  {.help = "force on fluid and solid", .unit = "force / volume"});
   if (options.help()) return list_vessel_options(options), RunStatus::complete;
 
   // 2 mesh and boundary conditions

@@ -48,7 +48,9 @@ class Slice:
         self.triangles = Triangulation(x, y)
         corner = np.stack([x, y], axis=1)[self.triangles.triangles]
         side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
-        self.triangles.set_mask(side > 6 * np.median(side))
+        (ax, ay), (bx, by) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
+        flat = abs(ax * by - ay * bx) < 1e-6 * side**2  # on the edge of an even mesh, by rounding
+        self.triangles.set_mask((side > 6 * np.median(side)) | flat)
         points = snapshot.points[:, :2]
         self.low, self.high = points.min(axis=0), points.max(axis=0)
 
@@ -135,6 +137,17 @@ def lit(triangles, colour):
     return np.outer(light, matplotlib.colors.to_rgb(colour))
 
 
+def in_one_piece(triangles, low, high):
+    """The surface of a solid that crosses a periodic seam, its two parts side by side."""
+    for i in range(3):
+        size, x = high[i] - low[i], triangles[:, :, i].mean(axis=1)
+        steps = np.diff(np.sort(x))
+        k = steps.argmax()
+        if steps[k] > size / 2:
+            triangles[x > np.sort(x)[k], :, i] -= size
+    return triangles
+
+
 def draw_interface_3d(folder, items):
     """The surface alpha = 0.5 at up to six times, each in a frame around the solid."""
     items = chosen(items, 6)
@@ -146,12 +159,13 @@ def draw_interface_3d(folder, items):
         triangles = isosurface(snapshot)
         ax = figure.add_subplot(rows, columns, i + 1, projection="3d")
         ax.set_title(f"t = {item[1]:.4g}", loc="left")
-        if len(triangles) == 0:
+        if len(triangles) < 2:
             continue
         # Axes (x, z, y): y, the height across the pipe, upwards on the paper.
+        low, high = snapshot.points.min(axis=0), snapshot.points.max(axis=0)
+        triangles = in_one_piece(triangles, low, high)
         ax.add_collection3d(Poly3DCollection(triangles[:, :, [0, 2, 1]],
                                              facecolors=lit(triangles[:, :, [0, 2, 1]], SOLID)))
-        low, high = snapshot.points.min(axis=0), snapshot.points.max(axis=0)
         middle = 0.5 * (triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1)))
         half = 0.5 * max((triangles.max(axis=(0, 1)) - triangles.min(axis=(0, 1))).max(),
                          min(high - low))

@@ -1,5 +1,6 @@
 // A driver of one's own: vortices that decay in a periodic square, against the exact solution.
-//   gmsh -2 -setnumber n 32 meshes/box.geo -o box.msh && mine/taylor-green -mesh box.msh
+//   gmsh -2 -setnumber n 32 -setnumber lz 0 meshes/box.geo -o box.msh
+//   mine/taylor-green -mesh box.msh
 
 #include <libfsi/fsi.hpp>
 

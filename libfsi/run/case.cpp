@@ -79,19 +79,20 @@ TimeSetup read_time(Options& options) {
 OutputSetup read_output(Options& options, const std::string& driver) {
   OutputSetup output;
   output.directory = options.text("output_dir", "out/" + driver, "where the files of the run go");
-  output.field_interval = options.real(
-      "output_interval", 0, {.help = "between field files; 0: none", .unit = "time", .min = 0});
-  output.sample_interval =
-      options.real("sample_interval", 0,
-                   {.help = "between rows of the csv files, which cut no step; 0: a row every step",
-                    .unit = "time",
-                    .min = 0});
-  output.checkpoint_interval = options.real(
-      "checkpoint_interval", 0,
-      {.help = "between checkpoints, of which the two newest are kept; 0: one where the "
-               "run does not reach its end",
+  output.field_interval =
+      options.real("output_interval", 0,
+                   {.help = "time between field files; 0: none", .unit = "time", .min = 0});
+  output.sample_interval = options.real(
+      "sample_interval", 0,
+      {.help = "time between rows of the csv files, which cut no step; 0: a row every step",
        .unit = "time",
        .min = 0});
+  output.checkpoint_interval =
+      options.real("checkpoint_interval", 0,
+                   {.help = "time between checkpoints, of which the two newest are kept; 0: one "
+                            "where the run does not reach its end",
+                    .unit = "time",
+                    .min = 0});
   output.restart =
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
   output.end_when_empty =

@@ -153,7 +153,7 @@ Wish read_wish(Options& options) {
   Wish wish;
   wish.periodic =
       options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
-  wish.walls = options.list("walls", "patches between which the gap is measured; none: all");
+  wish.walls = options.list("walls", "patches between which passages are measured; none: all");
   wish.worst = options.integer(
       "worst", wish.worst,
       {.help = "how many of the worst cells are listed (20 at most) and written", .min = 1});

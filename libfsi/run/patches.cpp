@@ -46,7 +46,7 @@ class PatchOptions {
     const std::string text = options_.text_or_file(
         name_ + key, fallback, help + "; a number or a csv file of time and value");
     const Real period =
-        real("period", 0, "after which the values of a csv file come again; 0: never", "time");
+        real("period", 0, "time after which the values of a csv file come again; 0: never", "time");
     char* end = nullptr;
     const Real value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() && *end == '\0' && std::isfinite(value)) return value;
@@ -183,8 +183,8 @@ struct Path {
 Path read_path(Options& options, const std::string& of) {
   const auto patches = options.list(
       of + "path", "two patches whose centre line the solid stands on, in place of its center");
-  const Real s = options.real(of + "arc_length", 1,
-                              {.help = "along the path, from its first patch", .unit = "length"});
+  const Real s = options.real(
+      of + "arc_length", 1, {.help = "way along the path, from its first patch", .unit = "length"});
   return {patches, s};
 }
 

@@ -18,26 +18,29 @@ shapes::Shape undeformed(Options& options, const std::string& of, const std::str
   shapes::Shape shape = shapes::sphere(1);
   const bool all = options.help();
   if (all || name == "torus") {
-    const Real R = length(options, of + "major_radius", 0.3, "torus: of the circle");
-    const Real r = length(options, of + "minor_radius", 0.1, "torus: of the tube");
+    const Real R = length(options, of + "major_radius", 0.3,
+                          "torus: radius of the circle in the middle of its tube");
+    const Real r = length(options, of + "minor_radius", 0.1, "torus: radius of its tube");
     require(r < R, "option -" + of + "minor_radius must be smaller than -" + of + "major_radius");
     shape = shapes::torus(R, r);
     thickness = 2 * r;
   }
   if (all || name == "ellipsoid") {
-    const Vec3 axes = options.vec3(of + "semi_axes", {0.4, 0.25, 0.25},
-                                   {.help = "ellipsoid: along x, y, z", .unit = "length"});
+    const Vec3 axes =
+        options.vec3(of + "semi_axes", {0.4, 0.25, 0.25},
+                     {.help = "ellipsoid: half its lengths along x, y, z", .unit = "length"});
     require(axes.x > 0 && axes.y > 0 && axes.z > 0,
             "option -" + of + "semi_axes: all three must be > 0");
     shape = shapes::ellipsoid(axes);
     thickness = 2 * std::min({axes.x, axes.y, axes.z});
   }
   if (all || name == "sphere" || name == "disk" || name == "cylinder" || name == "capsule") {
-    const Real r = length(options, of + "radius", 0.2, "sphere, disk, cylinder, capsule");
+    const Real r = length(options, of + "radius", 0.2, "sphere, disk, cylinder, capsule: radius");
     thickness = 2 * r;
     if (name == "sphere") shape = shapes::sphere(r);
     if (all || name != "sphere") {
-      const Real h = length(options, of + "height", 0.2, "disk, cylinder, capsule: along the axis");
+      const Real h = length(options, of + "height", 0.2,
+                            "disk, cylinder, capsule: length along the axis, without caps");
       if (name == "capsule") shape = shapes::capsule(r, h);
       if (name == "disk" || name == "cylinder") shape = shapes::cylinder(r, h);
       if (name != "capsule") thickness = std::min(thickness, h);
@@ -59,9 +62,10 @@ KinematicsKind read_kinematics(Options& options, const std::string& of) {
 
 /// Sets G, mu and the acceleration.
 void read_material(Options& options, const std::string& of, const Physics& physics, Solid& solid) {
-  const Real density =
-      options.real(of + "density", physics.rho,
-                   {.help = "density of the solid", .unit = "mass / volume", .positive = true});
+  const Real density = options.real(of + "density", physics.rho,
+                                    {.help = "density of the solid; so far that of the fluid alone",
+                                     .unit = "mass / volume",
+                                     .positive = true});
   require(density == physics.rho, "option -" + of +
                                       "density: only a solid as dense as the fluid can be run so "
                                       "far");

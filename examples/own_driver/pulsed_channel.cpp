@@ -1,0 +1,51 @@
+// Flow between two plates, driven by a force that pulsates: pulsed-channel [case.yaml] [options].
+
+#include <libfsi/fsi.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using fsi::Real;
+using fsi::Vec3;
+
+fsi::RunStatus pulsed_channel() {
+  // 1 parameters
+  fsi::Options options("pulsed-channel", "flow between two plates, driven by a pulsating force");
+  fsi::Case setup = fsi::read_case(options, "pulsed-channel");
+  const Real mean = options.real("force_mean", 0.08,
+                                 {.help = "mean of the force along x", .unit = "force / volume"});
+  const Real swing =
+      options.real("force_swing", 1, {.help = "amplitude of the force over its mean", .min = 0});
+  const Real period = options.real(
+      "force_period", 4, {.help = "period of the force", .unit = "time", .positive = true});
+  if (options.help()) return fsi::RunStatus::complete;
+  options.check_unknown();
+
+  // 2 mesh, boundary conditions and force
+  const fsi::Mesh mesh = fsi::read_mesh(setup.mesh);
+  setup.flow.conditions = {{"bottom", fsi::Wall{}}, {"top", fsi::Wall{}}};
+  setup.flow.body_force = [=](const Vec3&, Real t) {
+    return Vec3{mean * (1 + swing * std::cos(2 * std::numbers::pi * t / period)), 0, 0};
+  };
+  fsi::describe(setup, mesh, 1, mean / (8 * setup.physics.mu_f));
+
+  // 3 solver and initial state
+  fsi::Solver solver(mesh, setup.physics, setup.flow);
+  solver.start([](const Vec3&) { return Vec3{}; });
+  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
+
+  // 4 what to write
+  fsi::Output output(setup, options, solver, "pulsed-channel");
+
+  // 5 time
+  fsi::Clock clock(setup.time.end, solver.state().t);
+  while (clock.running() && output.go_on()) {
+    const fsi::Limit limit = fsi::stable_dt(solver, setup.time);
+    const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
+    clock.set(solver.state().t);
+    output.after_step(limit, dt);
+  }
+  return output.finish();
+}
+
+int main(int argc, char** argv) { return fsi::run(argc, argv, pulsed_channel); }

@@ -1,0 +1,50 @@
+#!/usr/bin/python3
+"""The judges of the documents judged: sentences of a page, and links that lead nowhere."""
+import os
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import links  # noqa: E402
+import prose  # noqa: E402
+
+
+def counts(text):
+    return [len(prose.words(sentence)) for _, sentence in prose.sentences(text)]
+
+
+class Sentences(unittest.TestCase):
+    def test_end_at_their_stops(self):
+        self.assertEqual(counts("One two. Three four five! `Six` seven?\n"), [2, 3, 2])
+        self.assertEqual(counts("The [link. Or so](a/b.md) leads on, e.g. To there.\n"), [2, 7])
+        self.assertEqual(counts("Version 1.2 of it.\n"), [4])
+
+    def test_go_on_over_lines(self):
+        self.assertEqual(counts("one two\nthree.\nFour\n\nfive\n"), [3, 1, 1])
+        self.assertEqual([line for line, _ in prose.sentences("# A\n\nb\nc\n\nd\n")], [1, 3, 6])
+
+    def test_stop_at_items_heads_and_cells(self):
+        self.assertEqual(counts("# A head\n- one two\n  three\n- four\n1. five\n"), [2, 3, 1, 1])
+        self.assertEqual(counts("text\n| a b | c \\| d |\n|---|---|\n"), [1, 2, 2, 0, 0])
+
+    def test_leave_code_out(self):
+        self.assertEqual(counts("one\n\n```\ntwo three. Four\n```\n\nfive\n"), [1, 1])
+        self.assertEqual(counts("one:\n\n    x = a b c\n\n    y\n\nfive `a b c d` six\n"), [1, 3])
+
+
+class Links(unittest.TestCase):
+    def test_lead_to_files_and_heads(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = os.path.join(folder, "a.md")
+            with open(page, "w", encoding="utf-8") as file:
+                file.write("# A `b_c` head: x\n")
+            for link in ("a.md", "a.md#a-b_c-head-x", "#a-b_c-head-x", "https://a.b/c", "."):
+                self.assertEqual(list(links.faults(page, f"x\n[y]({link})\n")), [], link)
+            for link in ("b.md", "a.md#b", "#b", "../nowhere/"):
+                self.assertEqual(list(links.faults(page, f"x\n[y]({link})\n")), [(2, link)])
+            self.assertEqual(list(links.faults(page, "```\n[y](b.md)\n```\n`[y](b)`\n")), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
