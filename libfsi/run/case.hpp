@@ -49,7 +49,7 @@ struct Case {
   OutputSetup output;
 };
 
-/// Reads the solid's options; sets mu_s and G. Errors: Error{input}.
+/// Reads the solid's options; sets mu_s, G and the law. Errors: Error{input}.
 SolidSetup read_solid(Options& options, Physics& physics);
 
 /// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the

@@ -178,8 +178,7 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
   const Mesh& mesh = solver.mesh();
   const std::optional<Body>& body = solver.body();
   const Real elastic =
-      body ? analysis::elastic_energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh)
-           : 0;
+      body ? body->law.energy(solver.physics().G, B_field(*body, mesh), body->alpha, mesh) : 0;
   std::vector<Entry> row{
       {"t", solver.state().t},
       {"dt", dt, Course::step},

@@ -3,6 +3,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/run/case.hpp"
+#include "libfsi/solid/law/laws.hpp"
 
 namespace fsi {
 namespace {
@@ -63,7 +64,7 @@ SolidSetup read_solid(Options& options, Physics& physics) {
       {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
   physics.G = options.real("solid_shear_modulus", 1,
                            {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
-  options.choice("solid_law", "neo_hookean", {"neo_hookean"}, "elastic law");
+  physics.law = solid::read_law(options);
   const std::string kinematics =
       options.choice("solid_kinematics", "log_conformation",
                      {"log_conformation", "left_cauchy_green", "reference_map"},

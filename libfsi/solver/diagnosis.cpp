@@ -68,7 +68,8 @@ std::string Solver::diagnosis(Term term, Real dt) {
                     "the largest change of volume that the pressure leaves, in parts of the cell,",
                     "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
   }
-  if (term != Term::convection && term != Term::solve) return diagnosis_of_solid(term, dt);
+  const bool of_flow = term == Term::convection || term == Term::solve;
+  if (!of_flow || (body_ && body_->beyond_law)) return diagnosis_of_solid(term, dt);
   const auto courant = [&](Index c) { return dt * flow::courant_rate(state_.phi, mesh_, c); };
   const auto lost = [&](Index c) {
     Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);
@@ -100,6 +101,10 @@ std::string Solver::diagnosis_of_solid(Term term, Real dt) {
   const auto crushed = [&](Index c) {
     return 1 / std::max(eigen(body_->B[c]).value[0], std::numeric_limits<Real>::min());
   };
+  if (body_->beyond_law)
+    return at_worst(
+        [&](Index c) { return body_->alpha[c] >= solid::alpha_known ? trace(body_->B[c]) - 3 : 0; },
+        "the largest tr B - 3", "the law of the solid ends there");
   switch (term) {
     case Term::transport:
       return at_worst(of_solid(courant), "the largest Courant number of the solid's step",

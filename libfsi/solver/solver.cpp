@@ -94,7 +94,7 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
   std::vector<Patch> mirrors;
   for (std::size_t i = 0; i < conditions_.size(); ++i)
     if (std::holds_alternative<Slip>(conditions_[i])) mirrors.push_back(mesh_.patches[i]);
-  body_.emplace(mesh_, weights_, shape, physics_.G, kind, mirrors);
+  body_.emplace(mesh_, weights_, shape, physics_.G, kind, mirrors, physics_.law);
   body_->t = state_.t;
   if (physics_.solid_acceleration != Vec3{})
     body_force_.emplace(mesh_, weights_, physics_.rho * physics_.solid_acceleration);
@@ -127,7 +127,7 @@ void Solver::step(Real dt) {
                             // or dBt/dt + div(u Bt) = ...              [Matsumiya25] (10)
                             // or d xi/dt + u . grad xi = 0             [Kamrin12]
     mix_viscosity();        // mu = alpha mu_s + (1 - alpha) mu_f       [Matsumiya25] (3)
-    set_elastic_force();    // f = div(alpha G dev B)                   [Matsumiya25] (11)
+    set_elastic_force();    // f = div(alpha G dev T)                   [Matsumiya25] (11)
     add_semi_implicit(dt);  // + div(kappa grad (u* - u^n)) + ...       semi_implicit.hpp
   }
   drive(state_.t + dt / 2);  // f += f(x, t)
@@ -197,8 +197,8 @@ void Solver::advance_interface(Real t) {
 void Solver::advect_pressure_jump() {
   const Profile::Call call(profile_, calls_.advect_pressure_jump);
   if (!body_->advects_pressure_jump()) return;
-  solid::advect_pressure_jump(state_.p, body_->alpha_mid, body_->alpha, body_->B, physics_.G, mesh_,
-                              body_->band.cells());
+  solid::advect_pressure_jump(state_.p, body_->alpha_mid, body_->alpha, body_->T(), physics_.G,
+                              mesh_, body_->band.cells());
   mesh_.halo.update(state_.p);
 }
 
@@ -294,7 +294,7 @@ void Solver::set_elastic_force() {
   const Profile::Call call(profile_, calls_.set_elastic_force);
   force_.fill({});
   rhie_chow_source_.fill(0);
-  const solid::ElasticState strain_cells{body_->B, body_->alpha,
+  const solid::ElasticState strain_cells{body_->T(), body_->alpha,
                                          body_->extended() ? &body_->alpha_f : nullptr,
                                          &body_->normal_f, &body_->mirror};
   body_->elastic_force.apply(force_, rhie_chow_source_, strain_cells, weights_,
@@ -305,7 +305,7 @@ void Solver::set_elastic_force() {
     mesh_.halo.update(two_viscosities_->normal, body_->band.listed());
     two_viscosities_->traction.apply(
         force_, rhie_chow_source_,
-        {state_.u, L_, L_f_, body_->B, body_->alpha, body_->alpha_f, body_->normal_f,
+        {state_.u, L_, L_f_, body_->T(), body_->alpha, body_->alpha_f, body_->normal_f,
          two_viscosities_->normal, two_viscosities_->height, mu_},
         weights_, projection_.stencil(), body_->band);
   }

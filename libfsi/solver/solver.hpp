@@ -32,6 +32,7 @@ struct Physics {
   Real mu_s = 0.01;           ///< of the solid
   Real G = 0;                 ///< shear modulus of the solid
   Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
+  solid::Law law{};           ///< of the solid's elastic stress
 };
 
 /// What drives and how the flow is solved.
