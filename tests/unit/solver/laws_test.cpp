@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -129,6 +130,27 @@ TEST(LawInStep, StiffnessFollows) {
   const Real x = (1 - 3.0 / 18) / 2;
   EXPECT_NEAR(elastic_dt(solid::Law(solid::Gent{1})), expected((1 - x) * 4 + x + 18 * x * (1 - x)),
               1e-12);
+}
+
+// The pressure that goes on with the surface is that of the law: twice neo-Hookean's here.
+TEST(LawInStep, JumpOfThePressureFollows) {
+  const Mesh mesh = test::read_box({.n = {24, 24, 0}});
+  const auto carried = [&](const solid::Law& law) {
+    Cavity one(mesh, {.law = law});
+    one.solver.start([](const Vec3& x) { return Vec3{x.y - 0.5, 0.5 - x.x, 0}; });
+    one.solver.body()->set_B([](const Vec3&) { return SymTensor{2, 0, 0, 0.5, 0, 1}; });
+    one.solver.body()->t = -0.05;
+    one.solver.synchronise();
+    const auto p = one.solver.state().p.owned();
+    return std::vector<Real>(p.begin(), p.end());
+  };
+  const std::vector<Real> plain = carried({}), gent = carried(solid::Law(solid::Gent{1}));
+  Real largest = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_NEAR(gent[i], 2 * plain[i], 1e-12);
+    largest = std::max(largest, std::abs(plain[i]));
+  }
+  EXPECT_GT(global_max(largest), 1e-3);
 }
 
 // A slab at rest, sheared by g, under a fluid that slides over it with the slab's own traction: the
