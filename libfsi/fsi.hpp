@@ -21,4 +21,5 @@
 #include "libfsi/run/output.hpp"
 #include "libfsi/run/patches.hpp"
 #include "libfsi/run/prescribed_advection.hpp"
+#include "libfsi/solid/law/laws.hpp"
 #include "libfsi/solver/solver.hpp"

@@ -32,7 +32,7 @@ fsi::RunStatus pulsed_channel() {
   // 3 solver and initial state
   fsi::Solver solver(mesh, setup.physics, setup.flow);
   solver.start([](const Vec3&) { return Vec3{}; });
-  if (setup.solid.shape) solver.put_solid(*setup.solid.shape, setup.solid.kinematics);
+  fsi::put_solids(solver, setup);
 
   // 4 what to write
   fsi::Output output(setup, options, solver, "pulsed-channel");

@@ -26,15 +26,6 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
   return sum.total();
 }
 
-Real elastic_energy(Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
-                    const Mesh& mesh) {
-  Sum sum;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    if (alpha[c] > 0) sum.add(G / 2 * alpha[c] * (trace(B[c]) - 3) * mesh.V[c]);
-  }
-  return sum.total();
-}
-
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L) {
   // |W|^2 - |D|^2 = -tr(L L).
   for (Index c = 0; c < Q.size(); ++c) {

@@ -21,10 +21,6 @@ Health health(const CellField<SymTensor>& B, const CellField<Real>& alpha, const
 /// sum rho |u|^2 V / 2.
 Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const Mesh& mesh);
 
-/// Strain energy of a neo-Hookean solid, sum G alpha (tr B - 3) V / 2; in plane strain B_zz = 1.
-Real elastic_energy(Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
-                    const Mesh& mesh);
-
 /// Q = (|W|^2 - |D|^2) / 2, W and D the antisymmetric and symmetric part of L   [Hunt88],
 /// [Matsumiya25] (25). Every cell for which L is set, owned and halo.
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L);

@@ -178,7 +178,7 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
   const Mesh& mesh = solver.mesh();
   Real elastic = 0;
   for (const Body& body : solver.bodies())
-    elastic += analysis::elastic_energy(body.G, B_field(body, mesh), body.alpha, mesh);
+    elastic += body.law.energy(body.G, B_field(body, mesh), body.alpha, mesh);
   std::vector<Entry> row{
       {"t", solver.state().t},
       {"dt", dt, Course::step},

@@ -4,6 +4,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/run/case.hpp"
+#include "libfsi/solid/law/laws.hpp"
 
 namespace fsi {
 namespace {
@@ -74,7 +75,7 @@ void read_material(Options& options, const std::string& of, const Physics& physi
       {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
   solid.G = options.real(of + "shear_modulus", 1,
                          {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
-  options.choice(of + "law", "neo_hookean", {"neo_hookean"}, "elastic law");
+  solid.law = solid::read_law(options, of + "law");
   solid.acceleration =
       options.vec3(of + "acceleration", {},
                    {.help = "body force on the solid alone, per mass", .unit = "length / time^2"});

@@ -19,28 +19,28 @@ ElasticForce::ElasticForce(const Mesh& mesh, const FaceWeights& weights, Real G)
 void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
                                      const ElasticState& solid, const FaceWeights& weights,
                                      const Band& band, const CellField<SymGradient>& grad) const {
-  const CellField<SymTensor>& B = solid.B;
+  const CellField<SymTensor>& T = solid.T;
   const CellField<Real>& alpha = solid.alpha;
   for (const Index f : band.faces()) {
     const Index P = mesh_.owner[f];
     const Vec3 d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
       // tau_b = tau_P + grad tau . d
-      const SymTensor aB_b = alpha[P] * B[P] + along(grad[P], d);
+      const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], d);
       const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
-      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aB_b), mesh_.Sf[f], mirror);
+      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), mesh_.Sf[f], mirror);
       continue;
     }
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
     const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
-    rhie_chow_source[f] += dot(n, dot(G_ * dev(alpha[N] * B[N] - alpha[P] * B[P] - rise), n));
-    // T_f = (1 - lambda) T_P + lambda T_N + (grad T)_f . skew, T = alpha B
-    SymTensor T = (1 - lambda) * alpha[P] * B[P] + lambda * alpha[N] * B[N];
+    rhie_chow_source[f] += dot(n, dot(G_ * dev(alpha[N] * T[N] - alpha[P] * T[P] - rise), n));
+    // (aT)_f = (1 - lambda) aT_P + lambda aT_N + (grad aT)_f . skew, aT = alpha T
+    SymTensor T_f = (1 - lambda) * alpha[P] * T[P] + lambda * alpha[N] * T[N];
     if (weights.place[f] >= 0)
-      T +=
+      T_f +=
           (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
-    const Vec3 t = dot(G_ * dev(T), mesh_.Sf[f]);
+    const Vec3 t = dot(G_ * dev(T_f), mesh_.Sf[f]);
     force[P] += (1 / mesh_.V[P]) * t;
     force[N] -= (1 / mesh_.V[N]) * t;
   }
@@ -50,7 +50,7 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
                                 const ElasticState& solid, const FaceWeights& weights,
                                 PressureStencil& pressure, const Band& band,
                                 const CellField<SymGradient>& grad) {
-  const CellField<SymTensor>& B = solid.B;
+  const CellField<SymTensor>& T = solid.T;
   const CellField<Real>& alpha = solid.alpha;
   jump_force_.clear();
   for (const Index f : band.faces()) {
@@ -60,7 +60,7 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     if (f >= mesh_.n_internal) {
       // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
       const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
-      const SymTensor tau = G_ * dev(B[P] + along(grad[P], d));
+      const SymTensor tau = G_ * dev(T[P] + along(grad[P], d));
       const Vec3& m = (*solid.normal)[f];
       const Real s = dot(m, dot(tau, m));
       force[P] += (1 / mesh_.V[P]) * (a_f * traction(tau, S, mirror) + ((alpha[P] - a_f) * s) * S);
@@ -71,17 +71,17 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const auto rise = [&](const Vec3& r) {
       return (1 - lambda) * along(grad[P], r) + lambda * along(grad[N], r);
     };
-    SymTensor T = (1 - lambda) * B[P] + lambda * B[N];
-    if (weights.place[f] >= 0) T += rise(weights.skew[f]);
-    const SymTensor tau = G_ * dev(T);
+    SymTensor T_f = (1 - lambda) * T[P] + lambda * T[N];
+    if (weights.place[f] >= 0) T_f += rise(weights.skew[f]);
+    const SymTensor tau = G_ * dev(T_f);
     const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
     const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);
     // alpha_f (tau - s I) + alpha_c s I, and the jump that the pressure bears
     force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
     force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
     jump_force_.add(f, jump, pressure.cells);
-    // what alpha dev B rises between the cells beyond the jump, less the mean of alpha grad dev B
-    const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (B[N] - B[P]) -
+    // what alpha dev T rises between the cells beyond the jump, less the mean of alpha grad dev T
+    const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (T[N] - T[P]) -
                              (1 - lambda) * alpha[P] * along(grad[P], d) -
                              lambda * alpha[N] * along(grad[N], d);
     rhie_chow_source[f] += jump + dot(n, dot(G_ * dev(smooth), n));
@@ -97,9 +97,9 @@ void ElasticForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_sour
   last_cells_ = band.cells();
   const bool sharp = solid.alpha_f != nullptr;
   if (sharp)
-    gradient(grad, solid.B, pressure.cells, mesh_, band.core());
+    gradient(grad, solid.T, pressure.cells, mesh_, band.core());
   else
-    gradient(grad, solid.alpha, solid.B, pressure.cells, mesh_, band.cells());
+    gradient(grad, solid.alpha, solid.T, pressure.cells, mesh_, band.cells());
   mesh_.halo.update(grad, band.listed());
   if (sharp)
     add_cut_face(force, rhie_chow_source, solid, weights, pressure, band, grad);

@@ -1,5 +1,5 @@
 #pragma once
-// Elastic stress of a neo-Hookean solid and the force it puts into the momentum equation.
+// Elastic stress of a solid and the force it puts into the momentum equation.
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/solid/balanced_jump_force.hpp"
@@ -7,12 +7,13 @@
 
 namespace fsi::solid {
 
-/// What the law makes a stress of.
+/// What the stress is made of.
 struct ElasticState {
-  const CellField<SymTensor>& B;      ///< on the band's cells, zero elsewhere; owned and halo
+  const CellField<SymTensor>& T;      ///< what the law makes of B (law/law.hpp), neo-Hookean: B; on
+                                      ///< the band's cells, zero elsewhere; owned and halo
   const CellField<Real>& alpha;       ///< owned and halo
-  const FaceField<Real>* alpha_f{};   ///< part of solid at the band's faces; B is then known around
-                                      ///< the solid as well. None: from alpha B of the cells
+  const FaceField<Real>* alpha_f{};   ///< part of solid at the band's faces; T is then known around
+                                      ///< the solid as well. None: from alpha T of the cells
   const FaceField<Vec3>* normal{};    ///< of the interface there, zero without one; with alpha_f
   const std::vector<char>* mirror{};  ///< [n_boundary] 1 on planes of symmetry, which bear no shear
 };
@@ -22,16 +23,16 @@ class ElasticForce {
  public:
   ElasticForce(const Mesh& mesh, const FaceWeights& weights, Real G);
 
-  /// Collective. tau = G dev(alpha B)                                     [Matsumiya25] (11)
-  /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha B linear between cells, as in the paper.
-  /// With alpha_f, tau_f = G dev B_f of B linear between cells, m the normal and s = m . tau_f . m,
+  /// Collective. tau = G dev(alpha T)                                     [Matsumiya25] (11)
+  /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha T linear between cells, as in the paper.
+  /// With alpha_f, tau_f = G dev T_f of T linear between cells, m the normal and s = m . tau_f . m,
   ///   force_c = (1/V) sum_f (alpha_f (tau_f - s I) + alpha_c s I) . S_f
   ///             + sum_f g_cf s (alpha_n - alpha_c):
   /// the part that a jump of the pressure bears is differenced as the pressure is, by the weights
   /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
-  /// At boundaries alpha B (with alpha_f: B) continues linearly.
+  /// At boundaries alpha T (with alpha_f: T) continues linearly.
   /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f
-  /// that of the cells' alpha times B, and that of the jump of the pressure. It vanishes for a
+  /// that of the cells' alpha times T, and that of the jump of the pressure. It vanishes for a
   /// linear stress. Both are added to what is there. force: owned and halo after. grad: scratch
   /// that nothing but the solid writes to, zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const ElasticState& solid,

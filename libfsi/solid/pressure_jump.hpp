@@ -7,10 +7,10 @@
 
 namespace fsi::solid {
 
-/// p_c += s d alpha_c,   s = m . G dev(B) . m,   m the normal of the surface,
+/// p_c += s d alpha_c,   s = m . G dev(T) . m,   m the normal of the surface,
 /// on the listed owned cells, as the surface goes on by d alpha = 2 (alpha - alpha_mid), alpha_mid
 /// the mean of before and after: a cell that the solid takes gets the solid's pressure, which bears
-/// the normal part s of its stress (ElasticForce), one that it leaves the fluid's. B, around the
+/// the normal part s of its stress (ElasticForce), one that it leaves the fluid's. T, around the
 /// solid too, is that before, as the jump is; m that after. What two viscosities add to the jump
 /// stays behind. alpha: owned and halo.
 ///
@@ -18,7 +18,7 @@ namespace fsi::solid {
 /// projection takes off again is the increment's averaged gradient in the cells and its compact one
 /// in the fluxes: cells and fluxes part by dt s / (rho h).
 void advect_pressure_jump(CellField<Real>& p, const CellField<Real>& alpha_mid,
-                          const CellField<Real>& alpha, const CellField<SymTensor>& B, Real G,
+                          const CellField<Real>& alpha, const CellField<SymTensor>& T, Real G,
                           const Mesh& mesh, std::span<const Index> cells);
 
 }  // namespace fsi::solid

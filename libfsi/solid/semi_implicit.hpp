@@ -16,7 +16,8 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
 
 /// What a face operator on the solid reads.
 struct ElasticTerms {
-  const CellField<Real>& lambda;    ///< largest eigenvalue of B, on the band's cells and halo
+  const CellField<Real>& lambda;    ///< largest modulus of the law over G, neo-Hookean: eigenvalue
+                                    ///< of B; on the band's cells and halo
   const FaceField<Real>& alpha;     ///< part of solid at the band's faces
   const CellField<Vec3>& u;         ///< owned and halo
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
@@ -33,7 +34,8 @@ struct ElasticTerms {
 ///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha lambda_B
 ///
 /// stands in for the change of the elastic stress over the step, which with leapfrog is
-/// div(dt G B . grad u) by div u = 0. A share of 1/4 of it or more makes the pair stable for any
+/// div(dt G B . grad u) by div u = 0; of another law G lambda_B is its largest modulus
+/// (law/law.hpp). A share of 1/4 of it or more makes the pair stable for any
 /// dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4. The fastest mode turns by arccos(1 - 1 / (2 c)) a step:
 /// with c = 0.3 by 132 degrees, and what the surface excites on its way through the cells stays in
 /// a thin body; with 0.4 by 104. It vanishes with the change of u over a step.

@@ -156,8 +156,8 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Tensor L = side.L + alpha_f * outer(side.a, m);  // over the whole way between the centres
   const SymTensor D = twice_symmetric(L);                // 2 D
   const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
-  const Vec3 Bm = dot(G_ * ((1 - lambda) * surface.B[P] + lambda * surface.B[N]), m);
-  const Vec3 Gb = along_surface(Bm, m);
+  const Vec3 Tm = dot(G_ * ((1 - lambda) * surface.T[P] + lambda * surface.T[N]), m);
+  const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the solid's own side, which mu_least has too much
   const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
   const Real excess = mu_.solid - mu_.fluid, s = excess * dot(Dm, m);

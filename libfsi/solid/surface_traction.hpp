@@ -16,7 +16,7 @@ struct Surface {
   const CellField<Vec3>& u;
   const CellField<Tensor>& L;      ///< velocity gradient
   const std::vector<Tensor>& L_f;  ///< at irregular faces, as the momentum equation has it
-  const CellField<SymTensor>& B;   ///< known around the surface
+  const CellField<SymTensor>& T;   ///< as the elastic force takes it; known around the surface
   const CellField<Real>& alpha;
   const FaceField<Real>& alpha_f;   ///< part of solid on the way between the centres
   const FaceField<Vec3>& normal_f;  ///< of the surface there, zero away from it
@@ -33,15 +33,15 @@ struct Viscosities {
 /// stress that is exact for a linear velocity with a kink a m, a . m = 0, at a plane surface. The
 /// traction along the surface is one, of viscosities in series:
 ///
-///   T = mu_s (2 D_s . m)_t + G (B . m)_t = mu_f (2 D_f . m)_t,   t: along the surface
-///   T = mu_h ((2 D . m)_t + alpha_f G (B . m)_t / mu_s),   1 / mu_h = alpha_f / mu_s
+///   T = mu_s (2 D_s . m)_t + G (T . m)_t = mu_f (2 D_f . m)_t,   t: along the surface
+///   T = mu_h ((2 D . m)_t + alpha_f G (T . m)_t / mu_s),   1 / mu_h = alpha_f / mu_s
 ///       + (1 - alpha_f) / mu_f,   2 D . m = alpha_f 2 D_s . m + (1 - alpha_f) 2 D_f . m
 ///
 /// and so is D without its part (D . m)_t, D^0. With s = (mu_s - mu_f) 2 m . D . m the excess over
 /// mu_f 2 D and over what the elastic stress has is
 ///
 ///   (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
-///     + alpha_f ((mu_s - mu_f) 2 D^0 - s I) + alpha_c s I,   e = (2 D . m)_t, b = (B . m)_t
+///     + alpha_f ((mu_s - mu_f) 2 D^0 - s I) + alpha_c s I,   e = (2 D . m)_t, b = (T . m)_t
 ///
 /// and sum_f g_cf s (alpha_n - alpha_c): a jump of the pressure bears s (elastic_force.hpp). D is
 /// that of the cells' least-squares fit of L . r + a (min(0, h + m . r) - min(0, h)); but in e . m

@@ -36,6 +36,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       alpha_f(mesh),
       normal_f(mesh),
       lambda(mesh),
+      law(solid.law),
       touched(mesh),
       interface(mesh),
       reconstruct_scratch(mesh),
@@ -49,6 +50,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
+  if (!law.B_itself()) T_of_law.emplace(mesh);
   specks.resize(static_cast<std::size_t>(mesh.n_owned));
   if (solid.kinematics == KinematicsKind::log_conformation && solid::has_simplices(mesh))
     interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
@@ -82,10 +84,19 @@ void Body::update_B() {
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
         for (const Index c : last_cells) B[c] = {}, lambda[c] = 0;
+        if (T_of_law)
+          for (const Index c : last_cells) (*T_of_law)[c] = {};
         last_cells = band.cells();
         eigenvalue_min = k.update_B(B, lambda, alpha, band);
       },
       kinematics);
+  if (T_of_law) {
+    const bool within = law.apply({*T_of_law, lambda, B, alpha, band.cells(), solid::alpha_known});
+    beyond_law = !all_of_ranks(within);
+    if (beyond_law)
+      throw Error(ErrorKind::numerics, "the solid is strained beyond its law, " + law.name());
+    mesh.halo.update(*T_of_law, band.listed());
+  }
   if (extended()) {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
     vof::face_normal(normal_f, alpha, interface, mesh, band.faces());

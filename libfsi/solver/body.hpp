@@ -59,7 +59,8 @@ struct Body {
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
   void list(io::Snapshot& snapshot);
-  /// Collective. Sets the band, B, lambda and alpha_f from alpha and the kinematics' unknown.
+  /// Collective. Sets the band, B, T, lambda and alpha_f from alpha and the kinematics' unknown.
+  /// Errors: Error{numerics} where B is beyond the range of the law.
   void update_B();
   /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
   /// out specks, cells with less than a hundredth of solid in themselves and all around them, and
@@ -103,21 +104,28 @@ struct Body {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
   }
 
+  /// What the elastic stress is made of, tau = G dev(T): zero away from the band; owned and halo.
+  const CellField<SymTensor>& T() const { return T_of_law ? *T_of_law : B; }
+
   const Mesh& mesh;
   const FaceWeights& weights;
   std::string name;
-  Real G, mu;                   ///< shear modulus, dynamic viscosity
-  CellField<Real> alpha;        ///< volume fraction of the solid
-  CellField<Real> alpha_mid;    ///< mean of it and of that before the last step
-  CellField<SymTensor> B;       ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;      ///< part of solid at the band's faces
-  FaceField<Vec3> normal_f;     ///< of the interface there, zero away from it; where B is extended
-  CellField<Real> lambda;       ///< largest eigenvalue of B; owned and halo
+  Real G, mu;                 ///< shear modulus, dynamic viscosity
+  CellField<Real> alpha;      ///< volume fraction of the solid
+  CellField<Real> alpha_mid;  ///< mean of it and of that before the last step
+  CellField<SymTensor> B;     ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;    ///< part of solid at the band's faces
+  FaceField<Vec3> normal_f;   ///< of the interface there, zero away from it; where B is extended
+  CellField<Real> lambda;     ///< largest modulus of the law over G, neo-Hookean: eigenvalue of
+                              ///< B; owned and halo
+  solid::Law law;
+  std::optional<CellField<SymTensor>> T_of_law;  ///< where it is not B itself
   BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, by set_touched
   Real t = 0;                   ///< time of alpha and B
   Real dt = 0;                  ///< length of the last step of alpha and B
   solid::Strain strain;         ///< in the last step
   Real eigenvalue_min = 1;      ///< of B on this rank
+  bool beyond_law = false;      ///< whether B is beyond the law's range anywhere
   vof::Interface interface;     ///< planes of alpha
   vof::ReconstructScratch reconstruct_scratch;
   vof::AdvectScratch advect_scratch;

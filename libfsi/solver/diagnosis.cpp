@@ -71,6 +71,11 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
   }
   if (term != Term::convection && term != Term::solve)
     return diagnosis_of_solid(*rejection.body, term, dt);
+  for (const Body& body : bodies_)
+    if (body.beyond_law)
+      return at_worst(
+          [&](Index c) { return body.alpha[c] >= solid::alpha_known ? trace(body.B[c]) - 3 : 0; },
+          "the largest tr B - 3", "the law of the solid ends there");
   const auto courant = [&](Index c) { return dt * flow::courant_rate(state_.phi, mesh_, c); };
   const auto lost = [&](Index c) {
     Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);

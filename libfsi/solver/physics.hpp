@@ -4,6 +4,7 @@
 #include <string>
 
 #include "libfsi/shapes/shapes.hpp"
+#include "libfsi/solid/law/law.hpp"
 
 namespace fsi {
 
@@ -14,6 +15,7 @@ struct Physics {
   Real mu_s = 0.01;           ///< of the solid
   Real G = 0;                 ///< shear modulus of the solid
   Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
+  solid::Law law{};           ///< of the solid's elastic stress
 };
 
 /// How the deformation of a solid is tracked.
@@ -27,6 +29,7 @@ struct Solid {
   std::string name{};   ///< of its columns and fields; may be empty where there is one solid only
   KinematicsKind kinematics = KinematicsKind::log_conformation;
   Vec3 acceleration{};  ///< of a body force that acts on this solid alone
+  solid::Law law{};     ///< of its elastic stress
 };
 
 }  // namespace fsi

@@ -42,7 +42,8 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
              .G = physics_.G,
              .mu = physics_.mu_s,
              .kinematics = kind,
-             .acceleration = physics_.solid_acceleration});
+             .acceleration = physics_.solid_acceleration,
+             .law = physics_.law});
 }
 
 void Solver::put_solid(const Solid& solid) {
@@ -118,7 +119,7 @@ void Solver::separate_bodies() {
 void Solver::advect_pressure_jump(CellField<Real>& p, const Body& body) {
   const Profile::Call call(profile_, calls_.advect_pressure_jump);
   if (!body.advects_pressure_jump()) return;
-  solid::advect_pressure_jump(p, body.alpha_mid, body.alpha, body.B, body.G, mesh_,
+  solid::advect_pressure_jump(p, body.alpha_mid, body.alpha, body.T(), body.G, mesh_,
                               body.band.cells());
   mesh_.halo.update(p);
 }
@@ -220,7 +221,7 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
 
 void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
   const Profile::Call call(profile_, calls_.add_elastic_force);
-  const solid::ElasticState elastic{body.B, body.alpha, body.extended() ? &body.alpha_f : nullptr,
+  const solid::ElasticState elastic{body.T(), body.alpha, body.extended() ? &body.alpha_f : nullptr,
                                     &body.normal_f, &body.mirror};
   PressureStencil& stencil = projection_.stencil();
   body.elastic_force.apply(force, rhie_chow_source_, elastic, weights_, stencil, body.band,
@@ -229,10 +230,10 @@ void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
     auto& [traction, normal, height] = *body.two_viscosities;
     vof::cell_plane(normal, height, body.alpha, body.interface, mesh_, body.band.cells());
     mesh_.halo.update(normal, body.band.listed());
-    traction.apply(
-        force, rhie_chow_source_,
-        {state_.u, L_, L_f_, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_},
-        weights_, stencil, body.band);
+    traction.apply(force, rhie_chow_source_,
+                   {state_.u, L_, L_f_, body.T(), body.alpha, body.alpha_f, body.normal_f, normal,
+                    height, mu_},
+                   weights_, stencil, body.band);
   }
   if (body.body_force)
     body.body_force->apply(force, rhie_chow_source_, body.alpha_f, stencil, body.band);

@@ -62,6 +62,12 @@ def main():
     check_notice(go_on(*changed, "-solid_shape", "cylinder", "-solid_radius", "0.3"),
                  "-solid_shape cylinder (was sphere)", "-solid_radius 0.3 (was 0.2)",
                  "-solid_height 0.2 (was not given)", "the solid's shape")
+    back = ["-solid_shape sphere (was cylinder)", "-solid_radius 0.2 (was 0.3)",
+            "-solid_height left out (was 0.2)", "the solid's shape"]
+    check_notice(go_on(*changed, "-solid_law", "gent", "-solid_law_limit", "20"),
+                 "-solid_law gent (was neo_hookean)", "-solid_law_limit 20 (was not given)", *back)
+    check_notice(go_on(*changed, "-solid_law", "gent", "-solid_law_limit", "10"),
+                 "-solid_law_limit 10 (was 20)")
     refused = go_on(*changed, "-solid_kinematics", "left_cauchy_green", code=2)
     check(len(refused) == 1 and "kinematics=log_conformation" in refused[0] and
           "kinematics=left_cauchy_green" in refused[0], f"refused: {refused}")

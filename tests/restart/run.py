@@ -26,6 +26,9 @@ CASES = {
     "map": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
             ["-time_end", "4", "-checkpoint_interval", "0.5", "-output_interval", "2",
              "-solid_kinematics", "reference_map"]),
+    "gent": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
+             ["-time_end", "4", "-checkpoint_interval", "0.5", "-output_interval", "2",
+              "-solid_law", "gent", "-solid_law_limit", "3"]),
     "vessel": ("fsi-vessel", "bifurcation", ["-3", "bifurcation", "n=6"],
                ["-time_end", "0.8", "-checkpoint_interval", "0.05", "-output_interval", "0.2"]),
 }

@@ -7,6 +7,7 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/momentum.hpp"
+#include "libfsi/solid/law/laws.hpp"
 #include "libfsi/solid/surface_traction.hpp"
 #include "libfsi/solver/body.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -14,20 +15,45 @@
 namespace fsi {
 namespace {
 
-/// Largest viscous force of u = (k x + g (y - y_0), -k (y - y_0)), mu g one on both sides of the
-/// surface y_0, less that which the jump of the pressure bears; two cells from the sides. The rows
-/// of cells wave up and down by that height.
-Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
+/// That of a pressure s.
+CellField<Vec3> gradient_of(const CellField<Real>& s, const FaceWeights& weights,
+                            PressureStencil& of_p, const Mesh& mesh) {
+  CellField<Vec3> grad_s(mesh);
+  const BoundaryField<Real> zero(mesh);
+  std::vector<Vec3> grad_f(weights.irregular.size());
+  gradient(grad_s, s, zero, of_p.cells, mesh);
+  of_p.at_faces.set(grad_f, grad_s);
+  pressure_gradient(grad_s, grad_f, s, zero, of_p.cells, mesh);
+  return grad_s;
+}
+
+/// A solid that is sheared by that much.
+struct Elastic {
+  Real G = 0, shear = 0;
+  solid::Law law{};
+};
+
+/// Largest force of u = (k x + g (y - y_0), -k (y - y_0)), the traction mu g (in the solid with
+/// that of its law) one on both sides of the surface y_0, less that which the jump of the pressure
+/// bears; two cells from the sides. The rows of cells wave up and down by that height.
+Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
+               const Elastic& elastic = {}) {
   const Mesh mesh =
       test::read_box({.n = {8, 10, 0}, .length = {1.6, 2, 1}, .moved = [wave](const Vec3& x) {
                         return x + Vec3{0, wave * x.y * (2 - x.y) * std::sin(4 * x.x), 0};
                       }});
   const FaceWeights weights(mesh);
   Body body(mesh, weights,
-            {.shape = shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}), .G = 0}, {});
+            {.shape = shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}),
+             .G = elastic.G,
+             .law = elastic.law},
+            {});
+  const Real shear = elastic.shear;
+  body.set_B([&](const Vec3&) { return SymTensor{1 + shear * shear, shear, 0, 1, 0, 1}; });
+  const SymTensor tau = elastic.G * dev(elastic.law.at({1 + shear * shear, shear, 0, 1, 0, 1}).T);
   const auto velocity = [&](const Vec3& x) {
     const Real y = x.y - y_0;
-    return Vec3{k * x.x + y / (y < 0 ? mu.solid : mu.fluid), -k * y, 0};
+    return Vec3{k * x.x + (y < 0 ? (1 - tau.xy) / mu.solid : 1 / mu.fluid) * y, -k * y, 0};
   };
   CellField<Vec3> u(mesh), visc(mesh), force(mesh);
   BoundaryField<Vec3> u_b(mesh);
@@ -50,18 +76,19 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0) {
   CellField<Vec3> normal(mesh);
   CellField<Real> height(mesh);
   vof::cell_plane(normal, height, body.alpha, body.interface, mesh, body.band.cells());
-  solid::SurfaceTraction traction(mesh, weights, 0, mu);
-  traction.apply(force, rhie_chow_source,
-                 {u, L, L_f, body.B, body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f},
-                 weights, of_p, body.band);
+  if (elastic.G > 0)
+    body.elastic_force.apply(force, rhie_chow_source,
+                             {body.T(), body.alpha, &body.alpha_f, &body.normal_f}, weights, of_p,
+                             body.band, body.grad);
+  solid::SurfaceTraction traction(mesh, weights, elastic.G, mu);
+  traction.apply(
+      force, rhie_chow_source,
+      {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f}, weights,
+      of_p, body.band);
   CellField<Real> s(mesh);
-  for (Index c = 0; c < mesh.n_cells; ++c) s[c] = -2 * k * (mu.solid - mu.fluid) * body.alpha[c];
-  CellField<Vec3> grad_s(mesh);
-  const BoundaryField<Real> zero(mesh);
-  std::vector<Vec3> grad_f(weights.irregular.size());
-  gradient(grad_s, s, zero, of_p.cells, mesh);
-  of_p.at_faces.set(grad_f, grad_s);
-  pressure_gradient(grad_s, grad_f, s, zero, of_p.cells, mesh);
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    s[c] = (tau.yy - 2 * k * (mu.solid - mu.fluid)) * body.alpha[c];
+  const CellField<Vec3> grad_s = gradient_of(s, weights, of_p, mesh);
   Real worst = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Vec3 x = mesh.C[c];
@@ -81,6 +108,17 @@ TEST(SurfaceTraction, ALinearVelocityWithAKinkLeavesNoForce) {
       // as level as the planes of the reconstruction
       EXPECT_LT(left_over(1.07, mu, k), 2e-3 * size) << "strain " << k << ", elsewhere";
     }
+}
+
+// The traction of the law in series with the viscous one, its normal part borne by the pressure.
+TEST(SurfaceTraction, TakesTheStressOfTheLaw) {
+  for (const solid::Law& law :
+       {solid::Law(), solid::Law(solid::Gent{1}), solid::Law(solid::MooneyRivlin{0.7})})
+    for (const solid::Viscosities& mu : {solid::Viscosities{5, 1}, solid::Viscosities{0.5, 1}})
+      for (const Real y_0 : {1.0, 1.1}) {
+        const Elastic elastic{.G = 0.7, .shear = 0.6, .law = law};
+        EXPECT_LT(left_over(y_0, mu, 0, 0, elastic), 1e-8) << law.name() << " at " << y_0;
+      }
 }
 
 // Faces that the line between the centres passes at an angle: without its part of the difference

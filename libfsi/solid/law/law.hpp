@@ -1,0 +1,134 @@
+#pragma once
+// The elastic law of an incompressible isotropic solid: from its energy alone.
+
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/field/field.hpp"
+#include "libfsi/solid/law/jet.hpp"
+#include "libfsi/solid/law/neo_hookean.hpp"
+
+namespace fsi::solid {
+
+/// B with det B = 1: its inverse B^-1, by cofactors, finite for any B. Its trace is I2.
+SymTensor adjugate(const SymTensor& B);
+
+/// What a law makes of one B, all over G.
+struct Response {
+  SymTensor T;       ///< tau = G dev(T)
+  Real modulus = 0;  ///< rho c^2 of the fastest shear wave
+  Real W = 0;        ///< energy per volume
+  /// Whether B is within the range of the law: W is finite and waves are real.
+  bool valid() const { return std::isfinite(W) && std::isfinite(modulus) && modulus > 0; }
+};
+
+/// With W and its derivatives by I1 = tr B and I2 = tr B^-1                 [Ogden97] 4.3, 6.2
+///   T = 2 W_1 B - 2 W_2 B^-1
+/// and, of waves along n that move along m, m . n = 0,
+///   rho c^2 = 2 W_1 n.B.n + 2 W_2 m.B^-1.m
+///             + 4 W_11 (m.B.n)^2 - 8 W_12 (m.B.n) (m.B^-1.n) + 4 W_22 (m.B^-1.n)^2,
+/// the second derivative of W by e in F -> (I + e m (x) n) F. The modulus is its largest value with
+/// m and n in the plane of the largest and the smallest stretch: of all where W_11, W_12 and W_22
+/// are 0 or more and the solid is stiffest there.
+Response response(const Jet& W, const SymTensor& B);
+
+/// B^(1/2); eigenvalues below 1e-6 count as that.
+SymTensor root(const SymTensor& B);
+
+/// A law, from a function energy(I1, I2) that is given and returns Jets: W over the shear modulus G
+/// at rest. neo-Hookean by default. The function is called once a cell, inside loops made for its
+/// type.
+class Law {
+ public:
+  Law() : Law(NeoHookean{}) {}
+  /// One of this folder.
+  template <class Shipped>
+  explicit Law(const Shipped& shipped) : Law(Shipped::name, shipped) {}
+  /// A law of your own. Errors: Error{input} where W is not 0 or the shear modulus 2 (W_1 + W_2)
+  /// is not 1 at rest.
+  template <class Energy>
+  Law(std::string name, const Energy& energy)
+      : name_(std::move(name)),
+        B_itself_(std::is_same_v<Energy, NeoHookean>),
+        response_([energy](const SymTensor& B) { return response_of(energy, B); }),
+        apply_([energy](const Fields& fields) { return loop(energy, fields); }),
+        sum_([energy](Sum& sum, Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
+                      const Mesh& mesh) { sum_of(energy, sum, G, B, alpha, mesh); }) {
+    check_at_rest();
+  }
+
+  const std::string& name() const { return name_; }
+  /// Whether T is B itself and its modulus B's largest eigenvalue: nothing is to be applied.
+  bool B_itself() const { return B_itself_; }
+  /// At one B, det B = 1.
+  Response at(const SymTensor& B) const { return response_(B); }
+
+  /// What a law works on.
+  struct Fields {
+    CellField<SymTensor>& T;        ///< on return set on `cells`; zero where B is
+    CellField<Real>& modulus;       ///< likewise
+    const CellField<SymTensor>& B;  ///< of a body's cells, zero where there is none
+    const CellField<Real>& alpha;
+    std::span<const Index> cells;
+    Real own;  ///< cells with alpha of at least that know their strain
+  };
+  /// Sets T and modulus. Returns whether B was within the law's range in this rank's cells that
+  /// know their strain. In others, whose B goes on from these, a B beyond the range is replaced by
+  /// the first of B^(1/2), B^(1/4), ... within.
+  bool apply(const Fields& fields) const { return apply_(fields); }
+
+  /// Collective. Elastic energy, sum G alpha W V; in plane strain B_zz = 1.
+  Real energy(Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
+              const Mesh& mesh) const;
+
+ private:
+  static constexpr int roots = 50;  // of B: the last is I to round-off
+
+  void check_at_rest() const;
+  template <class Energy>
+  static Jet value(const Energy& energy, const SymTensor& B) {
+    return energy(Jet::first(trace(B)), Jet::second(trace(adjugate(B))));
+  }
+  template <class Energy>
+  static Response response_of(const Energy& energy, const SymTensor& B) {
+    return response(value(energy, B), B);
+  }
+  template <class Energy>
+  static bool loop(const Energy& energy, const Fields& fields) {
+    bool within = true;
+    for (const Index c : fields.cells) {
+      SymTensor B = fields.B[c];
+      Response r;
+      if (B != SymTensor{}) r = response_of(energy, B);
+      if (B != SymTensor{} && !r.valid()) {
+        within = within && fields.alpha[c] < fields.own;
+        for (int i = 0; i < roots && !r.valid(); ++i) B = root(B), r = response_of(energy, B);
+      }
+      fields.T[c] = r.T, fields.modulus[c] = r.modulus;
+    }
+    return within;
+  }
+  template <class Energy>
+  static void sum_of(const Energy& energy, Sum& sum, Real G, const CellField<SymTensor>& B_,
+                     const CellField<Real>& alpha, const Mesh& mesh) {
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (!(alpha[c] > 0)) continue;
+      SymTensor B = B_[c];
+      Real W = value(energy, B).f;
+      for (int i = 0; i < roots && !std::isfinite(W); ++i) B = root(B), W = value(energy, B).f;
+      sum.add(G * alpha[c] * W * mesh.V[c]);
+    }
+  }
+
+  std::string name_;
+  bool B_itself_;
+  std::function<Response(const SymTensor&)> response_;
+  std::function<bool(const Fields&)> apply_;
+  std::function<void(Sum&, Real, const CellField<SymTensor>&, const CellField<Real>&, const Mesh&)>
+      sum_;
+};
+
+}  // namespace fsi::solid
