@@ -43,11 +43,8 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
                         return x + Vec3{0, wave * x.y * (2 - x.y) * std::sin(4 * x.x), 0};
                       }});
   const FaceWeights weights(mesh);
-  Body body(mesh, weights,
-            {.shape = shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0}),
-             .G = elastic.G,
-             .law = elastic.law},
-            {});
+  const auto slab = shapes::translate(shapes::box({40, 2 * y_0, 40}), {0, 0, 0});
+  Body body(mesh, weights, {.shape = slab, .G = elastic.G, .law = elastic.law}, {});
   const Real shear = elastic.shear;
   body.set_B([&](const Vec3&) { return SymTensor{1 + shear * shear, shear, 0, 1, 0, 1}; });
   const SymTensor tau = elastic.G * dev(elastic.law.at({1 + shear * shear, shear, 0, 1, 0, 1}).T);
