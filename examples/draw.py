@@ -30,6 +30,12 @@ def chosen(items, count):
     return [items[i] for i in np.unique(np.linspace(0, len(items) - 1, count).round().astype(int))]
 
 
+def apart(points):
+    """Places of points of which no two are nearly the same: cells above each other have one."""
+    spacing = np.sqrt(np.prod(np.ptp(points, axis=0)) / len(points))
+    return np.sort(np.unique((points / (0.05 * spacing)).round(), axis=0, return_index=True)[1])
+
+
 class Slice:
     """A plane z = const through a run (all of it in 2-D), as triangles over cell centres."""
 
@@ -43,6 +49,7 @@ class Slice:
             bottom, top = snapshot.extent(2)
             # The half-open test takes one layer where the plane lies between two.
             cells = np.flatnonzero((bottom <= self.level) & (self.level < top))
+        cells = cells[apart(centres[cells, :2])]
         self.snapshot, self.cells = snapshot, cells
         x, y = centres[cells, 0], centres[cells, 1]
         self.triangles = Triangulation(x, y)
@@ -50,7 +57,14 @@ class Slice:
         side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
         (ax, ay), (bx, by) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
         flat = abs(ax * by - ay * bx) < 1e-6 * side**2  # on the edge of an even mesh, by rounding
-        self.triangles.set_mask((side > 6 * np.median(side)) | flat)
+        far = side > 6 * np.median(side)
+        for mask in (far | flat, far):
+            self.triangles.set_mask(mask)
+            try:
+                self.triangles.get_trifinder()
+                break
+            except RuntimeError:  # what is left does not fit together
+                continue
         points = snapshot.points[:, :2]
         self.low, self.high = points.min(axis=0), points.max(axis=0)
 
