@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 
 import matplotlib
 
@@ -269,7 +270,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="the output directory of a run")
     folder = parser.parse_args().folder
-    tables = {name: table(os.path.join(folder, name + ".csv")) for name in ("solid", "flow")}
+    # Of several solids the first one is drawn over time.
+    names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
+    tables = {name: table(os.path.join(folder, name + ".csv")) for name in [*names, "flow"]}
+    tables.setdefault("solid", tables[names[0]] if names else {})
     volume = tables["solid"].get("volume")
     if volume is not None and volume[0] != 0:
         tables["solid"]["drift"] = volume / volume[0] - 1
