@@ -86,18 +86,17 @@ void read_material(Options& options, const std::string& of, const Physics& physi
 void place(Options& options, const std::string& of, SolidSetup& solid) {
   const Vec3 centre = options.vec3(of + "center", {0.5, 0.5, 0.5},
                                    {.help = "centre of the shape", .unit = "length"});
-  if (options.given(of + "axis")) {
-    const Vec3 axis =
-        options.vec3(of + "axis", {1, 0, 0}, {.help = "axis of revolution", .unit = ""});
+  if (options.given(of + "axis") || options.help()) {
+    const Vec3 axis = options.vec3(
+        of + "axis", {1, 0, 0}, {.help = "axis of revolution, in place of the angle", .unit = ""});
     require(norm(axis) > 0, "option -" + of + "axis must not be zero");
-    require(!options.given(of + "angle"),
+    require(!options.given(of + "angle") || options.help(),
             "options -" + of + "axis and -" + of + "angle exclude each other");
     solid.solid.shape = shapes::translate(shapes::align(solid.about_origin, axis), centre);
-    return;
+    if (!options.help()) return;
   }
   solid.angle = options.real(of + "angle", 0,
-                             {.help = "between the axis of revolution and x, in the x-y plane; or "
-                                      "the axis itself, x,y,z, by the option of that name",
+                             {.help = "between the axis of revolution and x, in the x-y plane",
                               .unit = "degrees",
                               .min = -360,
                               .max = 360});
