@@ -111,6 +111,7 @@ struct Body {
   const FaceWeights& weights;
   std::string name;
   Real G, mu;                 ///< shear modulus, dynamic viscosity
+  Vec3 acceleration;          ///< of a body force on it alone
   CellField<Real> alpha;      ///< volume fraction of the solid
   CellField<Real> alpha_mid;  ///< mean of it and of that before the last step
   CellField<SymTensor> B;     ///< on the band's cells, zero elsewhere; owned and halo

@@ -125,6 +125,11 @@ class Solver {
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
   const BoundaryField<Real>& p_b() const { return p_b_; }
+  /// Viscosity at the faces, of the last step.
+  const FaceField<Real>& mu() const { return mu_; }
+  const FaceWeights& weights() const { return weights_; }
+  /// Force per volume on fluid and solid; empty where there is none.
+  const std::function<Vec3(const Vec3&, Real)>& driving_force() const { return driving_force_; }
   /// What is given at an opening in the middle of the last step, behind its load's answer.
   /// Errors: Error{input} where that patch is none.
   Real opening_pressure(const std::string& patch) const;
