@@ -96,13 +96,13 @@ Solver::Calls::Calls(Profile& profile)
 void Solver::synchronise() {
   const auto stands_apart = [&](const Body& body) { return body.t != state_.t; };
   if (std::ranges::none_of(bodies_, stands_apart)) return;
-  for (Body& body : bodies_) advance_interface(body, state_.phi, state_.t);
+  for (Body& body : bodies_) advance_interface(body, state_.t);
   separate_bodies();
   for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);
   set_pressure_gradient(grad_p_, state_);
   set_velocity_gradient(L_, state_);
   interface_L_f_.clear();
-  for (Body& body : bodies_) transport_elastic(body, L_, state_);
+  for (Body& body : bodies_) transport_elastic(body, L_);
 }
 
 Real Solver::advance(Real dt) {

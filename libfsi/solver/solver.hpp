@@ -21,6 +21,7 @@
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
+#include "libfsi/solver/solid_step.hpp"
 #include "libfsi/vof/separate.hpp"
 
 namespace fsi {
@@ -145,13 +146,13 @@ class Solver {
 
  private:
   // The calls of a step: doc/theory/step.md. What each sets stands first.
-  void advance_interface(Body& body, const FaceField<Real>& phi, Real t);
+  void advance_interface(Body& body, Real t);
   void advect_pressure_jump(CellField<Real>& p, const Body& body);
   void separate_bodies();
   void set_pressure_gradient(CellField<Vec3>& grad_p, const State& state);
   void set_velocity_gradient(CellField<Tensor>& L, const State& state);
   void clear_forces();
-  void transport_elastic(Body& body, CellField<Tensor>& L, const State& state);
+  void transport_elastic(Body& body, CellField<Tensor>& L);
   void mix_viscosity(FaceField<Real>& mu);
   void add_elastic_force(CellField<Vec3>& force, Body& body);
   void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt);
@@ -161,18 +162,12 @@ class Solver {
   void project(State& state, Real dt);
   void hold_mean_velocity(State& state, Real dt);
   void check(const State& state);
-  /// What one body adds to them.
-  void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body, Real dt);
+  /// What the calls on bodies read of the flow.
+  FlowAround flow_around();
   /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
   void set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t);
   /// Between cells whose L is that of one side of the solid's surface L_f_ is its mean.
   void take_interface_gradient(const Body& body, const CellField<Tensor>& L);
-  /// L = grad u on the listed owned cells; its halo.
-  void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, std::span<const Index> cells);
-  /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
-  /// (solenoidal.hpp); owned and halo.
-  void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
-                              std::span<const Index> cells);
   /// What may end a step: the equation whose limit is passed, or what was thrown.
   enum class Term {
     none,
@@ -256,12 +251,6 @@ class Solver {
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<CellField<Real>*> alphas_;       // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
-  /// What strains a solid by the flux: velocity with what the fluxes tell besides, its gradient.
-  struct StrainByFlux {
-    explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
-    CellField<Vec3> u;
-    CellField<Tensor> L;
-  };
   std::optional<StrainByFlux> by_flux_;
   bool leaves_ = false;  // whether a solid may leave the mesh
   std::optional<Backup> backup_;
