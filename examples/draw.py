@@ -276,7 +276,8 @@ def main():
     tables.setdefault("solid", tables[names[0]] if names else {})
     volume = tables["solid"].get("volume")
     if volume is not None and volume[0] != 0:
-        tables["solid"]["drift"] = volume / volume[0] - 1
+        left = tables["solid"].get("volume_out", 0)
+        tables["solid"]["drift"] = (volume + left) / volume[0] - 1
     print_numbers(folder, tables)
     items = series(folder)
     pictures = [draw_series(folder, tables)]
