@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::flow {
 namespace {
@@ -23,12 +24,6 @@ ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const
 }
 
 }  // namespace
-
-Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
-  Real sum = 0;
-  for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
-  return sum / (2 * mesh.V[c]);
-}
 
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight) {
   if (dt_old <= 0) return {1, 0, 0};

@@ -15,9 +15,6 @@
 
 namespace fsi::flow {
 
-/// (1 / 2V) sum_f |phi_f| of a cell: its Courant number per time.
-Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c);
-
 /// Weights of what is known at t^n, at dt_old before and at dt_before before that, for its mean
 /// over the dt after t^n [Hairer93] (III.5): by the line through the first two and the part
 /// `ab3_weight` of what the parabola through all three adds to it; 1: exact for quadratic functions

@@ -51,4 +51,11 @@ inline Real cell_size(const Mesh& mesh, Index c) {
   return mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]);
 }
 
+/// (1 / 2V) sum_f |phi_f| of a cell: its Courant number per time.
+inline Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
+  Real sum = 0;
+  for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
+  return sum / (2 * mesh.V[c]);
+}
+
 }  // namespace fsi

@@ -37,6 +37,8 @@ struct Contact {
   const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
 };
 
+class ReferenceMap;
+
 /// The flow, frozen over a step of the solid.
 struct FlowSnapshot {
   const FaceField<Real>& phi;
@@ -49,6 +51,8 @@ struct FlowSnapshot {
   const Contact* contact = nullptr;  ///< none: nowhere
   Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)
   Real recovery = 0;                 ///< rate against the solid's viscosity, G / mu_s
+  /// What remembers the undeformed solid, at the end of the step; none: nothing does.
+  const ReferenceMap* memory = nullptr;
 };
 
 }  // namespace fsi::solid

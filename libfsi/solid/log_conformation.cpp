@@ -6,6 +6,7 @@
 #include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
 #include "libfsi/solid/one_sided.hpp"
+#include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
@@ -104,6 +105,15 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
   return fastest;
 }
 
+void LogConformation::recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt) {
+  static const Real rate = getenv("PULL") ? atof(getenv("PULL")) : 0.05;
+  for (const Index c : known_.core()) {
+    const Real courant = dt * courant_rate(phi, mesh_, c);
+    const Real part = memory.trust(c) * (1 - std::exp(-rate * courant));
+    if (memory.is_set[c] > 0 && part > 0) psi[c] += part * (log(memory.B(c, 1)) - psi[c]);
+  }
+}
+
 Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad) {
   const std::vector<Index>& core = known_.core();
   old_.clear();
@@ -115,6 +125,7 @@ Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<S
   const Real fastest = rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
+  if (snapshot.memory) recall(*snapshot.memory, snapshot.phi, dt);
   if (snapshot.strain)
     extension_.fourth_difference_filter(psi, grad, snapshot.wave_speed, snapshot.recovery, dt);
   extension_.linear(psi, grad);

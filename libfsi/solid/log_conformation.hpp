@@ -26,7 +26,7 @@ class LogConformation {
   /// Where in a step the solid stands when the momentum equation is solved.
   static constexpr Real time_offset = 0.5;
   /// The longest step in units of the time in which the elastic wave passes a cell.
-  static constexpr Real elastic_number = 4;
+  static constexpr Real elastic_number = 1.5;
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;
 
@@ -75,6 +75,10 @@ class LogConformation {
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
+  /// psi <- psi + (1 - exp(-0.05 Co)) trust (log B_memory - psi) on known_.core(), Co the cell's
+  /// Courant number: psi wears down with the way through the mesh, and what wears it down does not
+  /// touch the map.
+  void recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
 

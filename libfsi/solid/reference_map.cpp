@@ -19,10 +19,11 @@ Real largest_rate(const Tensor& L) {
 
 }  // namespace
 
-ReferenceMap::ReferenceMap(const Mesh& mesh)
+ReferenceMap::ReferenceMap(const Mesh& mesh, Folded folded)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
+      folded_(folded),
       stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
       known_(mesh),
       extension_(mesh),
@@ -46,7 +47,10 @@ void ReferenceMap::resume(const CellField<Real>& alpha, CellField<SymGradient>& 
 }
 
 void ReferenceMap::mark(const CellField<Real>& alpha) {
-  for (Index c = 0; c < mesh_.n_cells; ++c) filled_[c] = is_set[c] > 0 ? alpha[c] : 0;
+  const auto known = [&](Index c) {
+    return is_set[c] > 0 && (folded_ == Folded::error || alpha[c] == 0 || trust(c) > 0);
+  };
+  for (Index c = 0; c < mesh_.n_cells; ++c) filled_[c] = known(c) ? alpha[c] : 0;
   known_.rebuild(filled_, alpha_known);
 }
 
@@ -54,6 +58,11 @@ Tensor ReferenceMap::gradient_of_map(Index c) const {
   Tensor g = slope_[c];
   g.xx += 1, g.yy += 1, g.zz += 1;
   return g;
+}
+
+Real ReferenceMap::trust(Index c) const {
+  const Real J = volume_ratio(c);
+  return J > 0 ? std::max(Real{0}, 1 - std::abs(std::log2(J))) : 0;
 }
 
 Tensor ReferenceMap::gradient(Index c) const {
@@ -101,6 +110,19 @@ Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Re
   return face - back(up, u);
 }
 
+Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
+  constexpr Real part = 0.06;
+  const Real J = volume_ratio(c), h = cell_size(mesh_, c);
+  Vec3 grad_J;
+  for (const Index f : mesh_.cell_faces[c]) {
+    const Index n = beyond(mesh_, f, c);
+    if (n < 0) continue;
+    const Real there = filled_[n] >= alpha_known ? volume_ratio(n) : 1;
+    grad_J += (there - J) * stencil_.weight(f, mesh_.owner[f] == c);
+  }
+  return (part * courant * h * h) * dot(gradient_of_map(c), grad_J);
+}
+
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
@@ -118,12 +140,13 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
       off += (outward ? linear : -linear) * r;
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(snapshot.L[c], off));
-    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum);
+    const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
+    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum + towards_volume(c, courant));
   }
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
-  if (!all_of_ranks(!folded()))
+  if (folded_ == Folded::error && !all_of_ranks(!folded()))
     throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }
 

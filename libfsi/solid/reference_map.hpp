@@ -17,11 +17,17 @@ namespace fsi::solid {
 /// solid fills by alpha_known or more; the cells around get d by MapExtension. One step over dt
 /// with phi and u frozen: face values by Koren's limiter, taken half a step back along the
 /// particle's path. grad xi is the library's gradient over known and extended cells; B is divided
-/// by (det B)^(1/dim), the error of volume that the map's transport leaves. Nothing relaxes: what
-/// returns to its place is undeformed again.
+/// by (det B)^(1/dim), the error of volume that the map's transport leaves. Of that error J - 1,
+/// J = det grad xi, each step takes some back: the map is moved along grad J,
+///   xi <- xi + k h^2 grad xi . grad J,   k = 0.06 dt (rate of the cell's Courant number),
+/// which lets J diffuse out of the solid, J = 1 around it. Nothing else relaxes: what returns to
+/// its place is undeformed again.
 class ReferenceMap {
  public:
-  explicit ReferenceMap(const Mesh& mesh);
+  /// What becomes of a cell in which the map has lost its volume: an error, or its value is fitted
+  /// to those around it as where the solid is new.
+  enum class Folded { error, refit };
+  explicit ReferenceMap(const Mesh& mesh, Folded folded = Folded::error);
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
@@ -30,7 +36,7 @@ class ReferenceMap {
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;
   /// The longest step in units of the time in which the elastic wave passes a cell.
-  static constexpr Real elastic_number = 2.5;
+  static constexpr Real elastic_number = 1.5;
 
   /// xi = x.
   void set_undeformed(const CellField<Real>& alpha);
@@ -60,6 +66,12 @@ class ReferenceMap {
                 const Band& band) const;
   /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
   SymTensor B(Index c, Real alpha) const;
+  /// How far the map of a cell is to be relied on: 1 - |log2 det grad xi|, at least 0.
+  Real trust(Index c) const;
+  /// grad d, where it is set; owned and halo.
+  const CellField<Tensor>& slope() const { return slope_; }
+  /// Owned cells where d is set: the solid's and three rings around them.
+  std::span<const Index> cells() const { return extension_.rings().all(); }
   /// det grad xi of a cell: 1 but for the error of volume.
   Real volume_ratio(Index c) const { return det(gradient_of_map(c)); }
 
@@ -71,11 +83,14 @@ class ReferenceMap {
   /// The upwind value of d at face f half a step back along the particle's path.
   Vec3 face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
+  /// What the error of volume moves the map by.
+  Vec3 towards_volume(Index c, Real courant) const;
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;
 
   const Mesh& mesh_;
+  Folded folded_;
   GradientStencil stencil_;
   Band known_;
   MapExtension extension_;

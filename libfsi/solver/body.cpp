@@ -47,6 +47,9 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       elastic_force(mesh, weights, G),
       semi_implicit_elasticity(mesh, weights),
       grad(mesh),
+      shape(solid.shape),
+      held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
+      hold_scratch(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
   for (const Patch& patch : mirrors)
@@ -60,6 +63,10 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   if (solid.acceleration != Vec3{})
     body_force.emplace(mesh, weights, physics.rho * solid.acceleration);
   alpha_mid.assign(alpha);
+  if (held && solid.kinematics == KinematicsKind::log_conformation) {
+    memory.emplace(mesh, solid::ReferenceMap::Folded::refit);
+    memory->set_undeformed(alpha);
+  }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
 }
@@ -70,6 +77,7 @@ void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
         for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
       },
       kinematics);
+  memory.reset(), held = false;  // B does not tell how the shape came from the undeformed one
   resume();
 }
 
@@ -77,6 +85,7 @@ void Body::set_map(const std::function<Vec3(const Vec3&)>& xi_0) {
   auto* map = std::get_if<solid::ReferenceMap>(&kinematics);
   require(map != nullptr, "a map can be given to reference_map only; give B");
   for (Index c = 0; c < mesh.n_cells; ++c) map->set_map(c, xi_0(mesh.C[c]));
+  held = false;  // the shape put in is not the undeformed one
   resume();
 }
 
@@ -106,6 +115,18 @@ void Body::update_B() {
   }
   mesh.halo.update(B, band.listed());
   mesh.halo.update(lambda, band.listed());
+}
+
+void Body::hold_shape() {
+  if (!held || gone != 0) return;
+  const solid::ReferenceMap& m = *map();
+  trust.clear();
+  for (const Index c : m.cells()) trust.push_back(m.trust(c));
+  hold = vof::hold_shape(
+      alpha,
+      {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust}, mesh,
+      hold_scratch);
+  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
 }
 
 void Body::set_touched(std::span<const Index> cells, std::span<const char> open) {
@@ -155,15 +176,17 @@ void Body::list(io::Snapshot& snapshot) {
   snapshot.add(of + "solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add(of + "Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add(of + "psi", k->psi);
-  if (auto* k = std::get_if<solid::ReferenceMap>(&kinematics)) {
-    snapshot.add(of + "map", k->d);
-    snapshot.add(of + "map_is_set", k->is_set);
+  auto* map = memory ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
+  if (map != nullptr) {
+    snapshot.add(of + "map", map->d);
+    snapshot.add(of + "map_is_set", map->is_set);
   }
 }
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
+  if (memory) memory->resume(alpha, grad);
   update_B();
 }
 

@@ -20,6 +20,7 @@
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
 #include "libfsi/vof/fill.hpp"
+#include "libfsi/vof/held_shape.hpp"
 #include "libfsi/vof/kink_profile.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
@@ -62,6 +63,8 @@ struct Body {
   /// Collective. Sets the band, B, T, lambda and alpha_f from alpha and the kinematics' unknown.
   /// Errors: Error{numerics} where B is beyond the range of the law.
   void update_B();
+  /// Collective. Holds alpha to the shape that the map tells, where there is one; renews the planes.
+  void hold_shape();
   /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
   /// out specks, cells with less than a hundredth of solid in themselves and all around them, and
   /// the rest where that is less than a thousandth of the body; both count as having left. Returns
@@ -98,6 +101,10 @@ struct Body {
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
+  }
+  /// The map to the undeformed solid that the shape is held to; none: nothing remembers it.
+  const solid::ReferenceMap* map() const {
+    return memory ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
   }
   /// B of any cell, the unit tensor where there is none.
   SymTensor B_of(Index c) const {
@@ -140,6 +147,12 @@ struct Body {
       interface_gradient;                        ///< where the velocity gradient needs it
   std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, beside it
   CellField<solid::SymGradient> grad;            ///< scratch of both
+  std::optional<solid::ReferenceMap> memory;     ///< of the undeformed solid, beside psi
+  shapes::Shape shape;                           ///< undeformed
+  bool held = false;                             ///< whether alpha is held to the map's shape
+  vof::HoldScratch hold_scratch;
+  std::vector<Real> trust;  ///< scratch of that
+  vof::HoldReport hold;     ///< of the last step
   vof::Filled filled;                            ///< volume and its error at the start
   std::vector<Index> last_cells;                 ///< where B was set
   vof::AdvectReport advected;                    ///< of the last step

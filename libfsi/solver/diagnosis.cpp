@@ -9,6 +9,7 @@
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/quality.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -75,7 +76,7 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
       return at_worst(
           [&](Index c) { return body.alpha[c] >= solid::alpha_known ? trace(body.B[c]) - 3 : 0; },
           "the largest tr B - 3", "the law of the solid ends there");
-  const auto courant = [&](Index c) { return dt * flow::courant_rate(state_.phi, mesh_, c); };
+  const auto courant = [&](Index c) { return dt * courant_rate(state_.phi, mesh_, c); };
   const auto lost = [&](Index c) {
     Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);
     for (const Index f : mesh_.cell_faces[c])
@@ -97,7 +98,7 @@ std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) con
   const auto of_solid = [&](const auto& figure) {
     return [&](Index c) { return body.alpha[c] > 0 ? figure(c) : 0; };
   };
-  const auto courant = [&](Index c) { return body.dt * flow::courant_rate(state_.phi, mesh_, c); };
+  const auto courant = [&](Index c) { return body.dt * courant_rate(state_.phi, mesh_, c); };
   const auto waves = [&](Index c) {
     return dt / solid::elastic_time(body.lambda, body.G, physics_.rho, mesh_, {&c, 1});
   };

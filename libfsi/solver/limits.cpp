@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -12,7 +13,7 @@ namespace fsi {
 Real Solver::advective_dt(Real courant) const {
   Real rate = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c)
-    rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
+    rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
@@ -22,7 +23,7 @@ Real Solver::carried_dt() const {
   for (const Body& body : bodies_) {
     Real rate = 0;
     for (const Index c : body.band.cells())
-      rate = std::max(rate, flow::courant_rate(state_.phi, mesh_, c));
+      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
     rate = global_max(rate);
     // body.t + body.dt = t + time_offset dt
     if (rate > 0) least = std::min(least, (1 / rate - (state_.t - body.t)) / body.time_offset());

@@ -30,6 +30,9 @@ struct Solid {
   KinematicsKind kinematics = KinematicsKind::log_conformation;
   Vec3 acceleration{};  ///< of a body force that acts on this solid alone
   solid::Law law{};     ///< of its elastic stress
+  /// Whether a map to the undeformed solid holds shape and strain to each other; left_cauchy_green
+  /// has none.
+  bool memory = true;
 };
 
 }  // namespace fsi

@@ -102,6 +102,7 @@ void Solver::put_solid(const Solid& solid) {
 void advance_interface(Body& body, const FlowAround& flow, Real t) {
   body.dt = t - body.t;
   body.t = t;
+  body.hold_shape();
   body.alpha_mid.assign(body.alpha);
   // A flux follows the plane of one cell, for a part of the step in which the surface stays in it:
   // in whole steps the way of a thin curved body depends on dt (doc/theory/interface.md).
@@ -165,7 +166,21 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
   }
 }
 
+void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
+  if (!body.memory) return;
+  solid::ReferenceMap& map = *body.memory;
+  map.mark(body.alpha);
+  if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
+  const solid::FlowSnapshot snapshot{.phi = flow.phi,
+                                     .u = flow.u,
+                                     .L = L,
+                                     .stencil = flow.pressure.cells,
+                                     .weights = body.weights};
+  map.transport(body.alpha, snapshot, body.dt, body.grad);
+}
+
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
+  transport_memory(body, L, flow);
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
@@ -177,7 +192,8 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
                                      .wave_speed = std::sqrt(body.G / flow.rho),
-                                     .recovery = body.G / body.mu};
+                                     .recovery = body.G / body.mu,
+                                     .memory = body.memory ? &*body.memory : nullptr};
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());

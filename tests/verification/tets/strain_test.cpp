@@ -66,7 +66,7 @@ Growth growth(const std::string& name, int steps) {
   for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(velocity, mesh.Sf[f]);
   Real fastest = 0;
   for (Index c = 0; c < mesh.n_owned; ++c)
-    fastest = std::max(fastest, flow::courant_rate(phi, mesh, c));
+    fastest = std::max(fastest, courant_rate(phi, mesh, c));
   const Real dt = 0.5 / global_max(fastest);
 
   Kinematics k(mesh);

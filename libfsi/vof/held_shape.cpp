@@ -1,0 +1,122 @@
+#include "libfsi/vof/held_shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
+#include "libfsi/vof/reconstruct.hpp"
+
+namespace fsi::vof {
+namespace {
+
+/// Value, gradient and Laplacian of a shape's distance, by differences over the length e.
+struct Distance {
+  Real value;
+  Vec3 gradient;
+  Real laplacian;
+};
+
+Distance distance(const shapes::Shape& shape, const Vec3& x, Real value, Real e, int dim) {
+  Distance result{value, {}, 0};
+  for (int i = 0; i < dim; ++i) {
+    Vec3 step;
+    step[i] = e;
+    const Real ahead = shape(x + step), behind = shape(x - step);
+    result.gradient[i] = (ahead - behind) / (2 * e);
+    result.laplacian += (ahead - 2 * value + behind) / (e * e);
+  }
+  return result;
+}
+
+/// The least distance over the periods' images, and where: by descent from those of the last point.
+Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh& mesh) {
+  Real least = shape(xi + laps);
+  for (bool nearer = mesh.translation.size() > 1; nearer;) {
+    nearer = false;
+    for (const Vec3& shift : mesh.translation) {
+      const Real value = shape(xi + laps + shift);
+      if (!(value < least)) continue;
+      least = value, laps += shift, nearer = true;
+    }
+  }
+  xi += laps;
+  return least;
+}
+
+void list_planes(const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
+  s.cells.clear(), s.planes.clear(), s.weight.clear();
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    if (map.weight[i] <= 0) continue;
+    const Index c = map.cells[i];
+    const Real h = cell_size(mesh, c);
+    Vec3 xi = mesh.C[c] + map.d[c];
+    const Real value = nearest_image(xi, s.laps, map.shape, mesh);
+    constexpr Real near = 2;  // cells
+    if (std::abs(value) > near * h) continue;
+    const Distance at = distance(map.shape, xi, value, 1e-3 * h, mesh.dim);
+    const Vec3 g = at.gradient + dot(transpose(map.gradient[c]), at.gradient);
+    const Real slope = norm(g), k = std::clamp(at.laplacian, -1 / h, 1 / h);
+    if (!(slope > 0)) continue;
+    s.cells.push_back(c), s.weight.push_back(map.weight[i]);
+    s.planes.push_back({g / slope, -(at.value + k * h * h / 24) / slope});
+  }
+}
+
+/// change = what the planes, moved outward by shift, ask for; sums: of change V and of area.
+void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, const Mesh& mesh,
+                 Real shift, HoldScratch& s) {
+  constexpr Real most = 0.1;
+  std::array<Sum, 2> sums;
+  s.change.resize(s.cells.size());
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    const Index c = s.cells[i];
+    gather(s.cell, mesh, c);
+    const geometry::Plane plane{s.planes[i].n, s.planes[i].s + shift};
+    const Real asked = geometry::measure_below(s.cell, plane) / mesh.V[c] - alpha[c];
+    s.change[i] = s.weight[i] * std::clamp(asked, -most, most);
+    sums[0].add(mesh.V[c] * s.change[i]);
+    if (std::abs(asked) < most) sums[1].add(s.weight[i] * geometry::cut(s.cell, plane).area);
+  }
+  Sum::totals(totals, sums);
+}
+
+}  // namespace
+
+HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
+                      HoldScratch& s) {
+  list_planes(map, mesh, s);
+  Sum solid, moved;
+  for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
+  const Real volume = solid.total();
+  HoldReport report;
+  constexpr int rounds = 6;
+  constexpr Real enough = 1e-10;  // of the volume; the rest goes to the cut cells
+  for (int i = 0; i < rounds; ++i) {
+    std::array<Real, 2> totals{};
+    set_changes(totals, alpha, mesh, report.shift, s);
+    if (std::abs(totals[0]) <= enough * volume || totals[1] <= 0) break;
+    report.shift -= totals[0] / totals[1];
+  }
+  std::array<Sum, 2> sums;  // volume added, weight of those who give it back
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    const Index c = s.cells[i];
+    const Real a = alpha[c] + s.change[i];
+    constexpr Real wisp = 1e-9;
+    const Real to = a < wisp ? 0 : a > 1 - wisp ? 1 : a;
+    sums[0].add((to - alpha[c]) * mesh.V[c]);
+    sums[1].add(mesh.V[c] * to * (1 - to));
+    moved.add(std::abs(to - alpha[c]) * mesh.V[c]);
+    alpha[c] = to;
+  }
+  std::array<Real, 3> totals{};
+  Sum::totals(totals, std::array{sums[0], sums[1], moved});
+  const Real factor = totals[1] > 0 ? std::clamp(-totals[0] / totals[1], Real{-1}, Real{1}) : 0;
+  for (const Index c : s.cells) alpha[c] += factor * alpha[c] * (1 - alpha[c]);
+  mesh.halo.update(alpha);
+  report.moved = volume > 0 ? totals[2] / volume : 0;
+  return report;
+}
+
+}  // namespace fsi::vof
