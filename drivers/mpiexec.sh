@@ -5,6 +5,9 @@
 # with code 1 whatever they end with. SIGUSR2 it passes on, and then it ends with the code of the
 # ranks. So either signal to this script, Ctrl-C among them, reaches the run as SIGUSR2: it finishes
 # its step, writes a checkpoint, and the script ends with its code, 5. MPIEXEC names another mpiexec.
+#
+# As root, as in most containers, Open MPI runs only where two variables say so: then they are set.
+[ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 set -m # a process group of its own: a Ctrl-C of the terminal does not reach mpiexec
 "${MPIEXEC:-mpiexec}" "$@" </dev/null &
 job=$!

@@ -1,6 +1,10 @@
 #!/usr/bin/python3
-"""Pictures of a run: draw.py FOLDER writes interface.png, flow.png, series.png into FOLDER."""
+"""Pictures of a run: draw.py FOLDER writes interface.png, flow.png, series.png into FOLDER.
+
+draw.py FOLDER --plane x draws the flow in the plane of that normal through the solid's centre.
+"""
 import argparse
+import itertools
 import json
 import os
 import re
@@ -10,10 +14,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib.tri import LinearTriInterpolator, Triangulation  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
 from fields import Snapshot, isosurface, series, table  # noqa: E402
+from planes import AXES, Slice, cuts_of, has_solid, normal_of  # noqa: E402
 
 plt.rcParams.update({
     "figure.dpi": 130, "savefig.bbox": "tight", "font.size": 10, "axes.titlesize": 10,
@@ -22,6 +26,7 @@ plt.rcParams.update({
 })
 SOLID = "#c8402f"
 INK = "#23395b"
+COLOURS = (INK, SOLID, "#3a8f6a", "#b8860b", "#6a4c93", "#5b8db8")
 
 
 def chosen(items, count):
@@ -31,74 +36,19 @@ def chosen(items, count):
     return [items[i] for i in np.unique(np.linspace(0, len(items) - 1, count).round().astype(int))]
 
 
-def apart(points):
-    """Places of points of which no two are nearly the same: cells above each other have one."""
-    spacing = np.sqrt(np.prod(np.ptp(points, axis=0)) / len(points))
-    return np.sort(np.unique((points / (0.05 * spacing)).round(), axis=0, return_index=True)[1])
-
-
-class Slice:
-    """A plane z = const through a run (all of it in 2-D), as triangles over cell centres."""
-
-    def __init__(self, snapshot):
-        centres = snapshot.centres()
-        self.level = 0.0
-        cells = np.arange(len(centres))
-        if snapshot.dim == 3:
-            low, high = snapshot.points[:, 2].min(), snapshot.points[:, 2].max()
-            self.level = 0.5 * (low + high)
-            bottom, top = snapshot.extent(2)
-            # The half-open test takes one layer where the plane lies between two.
-            cells = np.flatnonzero((bottom <= self.level) & (self.level < top))
-        cells = cells[apart(centres[cells, :2])]
-        self.snapshot, self.cells = snapshot, cells
-        x, y = centres[cells, 0], centres[cells, 1]
-        self.triangles = Triangulation(x, y)
-        corner = np.stack([x, y], axis=1)[self.triangles.triangles]
-        side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
-        (ax, ay), (bx, by) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
-        flat = abs(ax * by - ay * bx) < 1e-6 * side**2  # on the edge of an even mesh, by rounding
-        far = side > 6 * np.median(side)
-        for mask in (far | flat, far):
-            self.triangles.set_mask(mask)
-            try:
-                self.triangles.get_trifinder()
-                break
-            except RuntimeError:  # what is left does not fit together
-                continue
-        points = snapshot.points[:, :2]
-        self.low, self.high = points.min(axis=0), points.max(axis=0)
-
-    def __getitem__(self, name):
-        return self.snapshot[name][self.cells]
-
-    def grid(self, values, nx=240):
-        """Values at a regular grid; masked outside the mesh."""
-        size = self.high - self.low
-        ny = max(20, int(nx * size[1] / size[0]))
-        x = np.linspace(self.low[0], self.high[0], nx)
-        y = np.linspace(self.low[1], self.high[1], ny)
-        return x, y, LinearTriInterpolator(self.triangles, values)(*np.meshgrid(x, y))
-
-    def outline(self, axes, colour=SOLID, width=1.8):
-        alpha = self["alpha"]
-        if alpha.min() < 0.5 < alpha.max():
-            axes.tricontour(self.triangles, alpha, [0.5], colors=[colour], linewidths=width)
-
-
 def panel(axes, cut):
     axes.set_aspect("equal")
     axes.set_xlim(cut.low[0], cut.high[0])
     axes.set_ylim(cut.low[1], cut.high[1])
-    axes.set_xlabel("x")
-    axes.set_ylabel("y")
+    axes.set_xlabel(AXES[cut.across[0]])
+    axes.set_ylabel(AXES[cut.across[1]])
     axes.grid(False)
 
 
-def draw_flow(folder, items):
+def draw_flow(folder, items, normal=2):
     """|u| with streamlines and the interface, at up to four times."""
     items = chosen(items, 4)
-    cuts = [Slice(Snapshot(*item)) for item in items]
+    cuts = list(cuts_of(items, normal))
     size = cuts[0].high - cuts[0].low
     wide = size[0] > 2 * size[1]
     rows, columns = (len(items), 1) if wide else (1, len(items))
@@ -110,25 +60,35 @@ def draw_flow(folder, items):
     for ax, cut in zip(axes.flat, cuts):
         speed = np.linalg.norm(cut["u"], axis=1)
         shades = ax.tripcolor(cut.triangles, speed, shading="gouraud", vmin=0, vmax=top)
-        x, y, ux = cut.grid(cut["u"][:, 0])
-        uy = cut.grid(cut["u"][:, 1])[2]
+        x, y, ux = cut.grid(cut["u"][:, cut.across[0]])
+        uy = cut.grid(cut["u"][:, cut.across[1]])[2]
         ax.streamplot(x, y, ux, uy, color=(1, 1, 1, 0.55), linewidth=0.6, arrowsize=0.6,
                       density=(1.6, 0.6) if wide else 1.1)
         if "alpha" in cut.snapshot:
-            cut.outline(ax)
+            cut.outline(ax, SOLID)
         panel(ax, cut)
-        where = "" if cut.snapshot.dim == 2 else f"   plane z = {cut.level:g}"
+        where = "" if cut.snapshot.dim == 2 else f"   plane {AXES[cut.normal]} = {cut.level:.4g}"
         ax.set_title(f"t = {cut.snapshot.time:.4g}{where}", loc="left")
     figure.colorbar(shades, ax=axes, label="|u|", shrink=0.8, aspect=30,
                     location="bottom" if wide else "right")
     return save(figure, folder, "flow.png")
 
 
-def has_solid(snapshot):
-    return "alpha" in snapshot and snapshot["alpha"].max() > 0.5
+def while_solid(items):
+    """The items up to the last one with solid in it."""
+    items = list(items)
+    while items and not has_solid(Snapshot(*items[-1])):
+        items.pop()
+    return items
 
 
-def draw_interface_2d(folder, items):
+def interface_title(items, all_items):
+    left = "" if len(items) == len(all_items) else \
+        f"; none is left at t = {all_items[len(items)][1]:.4g}"
+    return "interface, $\\alpha$ = 0.5" + left
+
+
+def draw_interface_2d(folder, items, title):
     """The line alpha = 0.5 at up to eight times."""
     items = chosen(items, 8)
     figure, ax = plt.subplots(figsize=(5.4, 5.0), layout="constrained")
@@ -138,7 +98,7 @@ def draw_interface_2d(folder, items):
         cut.outline(ax, colour, 1.6)
         ax.plot([], [], color=colour, label=f"t = {item[1]:.3g}")
         panel(ax, cut)
-    ax.set_title("interface, $\\alpha$ = 0.5", loc="left")
+    ax.set_title(title, loc="left")
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return save(figure, folder, "interface.png")
 
@@ -163,7 +123,7 @@ def in_one_piece(triangles, low, high):
     return triangles
 
 
-def draw_interface_3d(folder, items):
+def draw_interface_3d(folder, items, title):
     """The surface alpha = 0.5 at up to six times, each in a frame around the solid."""
     items = chosen(items, 6)
     columns = min(3, len(items))
@@ -193,12 +153,12 @@ def draw_interface_3d(folder, items):
         ax.set_ylabel("z")
         ax.set_zlabel("y")
         ax.tick_params(labelsize=7)
-    figure.suptitle("interface, $\\alpha$ = 0.5", x=0.02, ha="left")
+    figure.suptitle(title, x=0.02, ha="left")
     return save(figure, folder, "interface.png")
 
 
 PANELS = (
-    # title, table, columns, logarithmic
+    # title, table, columns (NAME_*: all that begin so), logarithmic
     ("centroid", "solid", ("x", "y", "z"), False),
     ("velocity of the solid", "solid", ("ux", "uy", "uz"), False),
     ("angle of the axis to x, degrees", "solid", ("angle",), False),
@@ -206,6 +166,8 @@ PANELS = (
     ("det B, smallest eigenvalue of B", "solid", ("det_B_min", "det_B_max", "min_eig_B"), False),
     ("pressure gradient", "flow", ("pressure_gradient",), False),
     ("flow rate", "flow", ("flow_rate",), False),
+    ("flow rate of each opening, outward", "flow", ("flow_rate_*",), False),
+    ("mean pressure of each opening", "flow", ("mean_pressure_*",), False),
     ("energy", "flow", ("kinetic_energy", "elastic_energy"), False),
     ("time step and its limit", "flow", ("dt", "dt_limit"), False),
     ("largest divergence", "flow", ("divergence_max",), True),
@@ -219,8 +181,10 @@ def draw_series(folder, tables):
     shown = []
     for title, name, columns, logarithmic in PANELS:
         data = tables[name]
+        columns = [c for wanted in columns for c in data
+                   if c == wanted or (wanted.endswith("*") and c.startswith(wanted[:-1]))]
         lines = [(c, data[c]) for c in columns
-                 if c in data and np.isfinite(data[c]).any() and np.ptp(data[c]) > 0]
+                 if np.isfinite(data[c]).any() and np.ptp(data[c]) > 0]
         if lines:
             shown.append((title, data["t"], lines, logarithmic))
     if not shown:
@@ -232,7 +196,7 @@ def draw_series(folder, tables):
     for ax in axes.flat[len(shown):]:
         ax.axis("off")
     for ax, (title, t, lines, logarithmic) in zip(axes.flat, shown):
-        for (name, values), colour in zip(lines, (INK, SOLID, "#3a8f6a")):
+        for (name, values), colour in zip(lines, itertools.cycle(COLOURS)):
             ax.plot(t, np.where(values > 0, values, np.nan) if logarithmic else values,
                     color=colour, label=name)
         if logarithmic:
@@ -269,7 +233,11 @@ def print_numbers(folder, tables):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="the output directory of a run")
-    folder = parser.parse_args().folder
+    parser.add_argument("--plane", choices=list(AXES), help="normal of the plane of flow.png in 3-D, "
+                        "through the solid's centre; not given: z, or where the solid travels along "
+                        "z the axis that it travels along least")
+    wish = parser.parse_args()
+    folder = wish.folder
     # Of several solids the first one is drawn over time.
     names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
     tables = {name: table(os.path.join(folder, name + ".csv")) for name in [*names, "flow"]}
@@ -282,11 +250,11 @@ def main():
     items = series(folder)
     pictures = [draw_series(folder, tables)]
     if items:
-        last = Snapshot(*items[-1])
-        if has_solid(last):
-            draw = draw_interface_2d if last.dim == 2 else draw_interface_3d
-            pictures.append(draw(folder, items))
-        pictures.append(draw_flow(folder, items))
+        solid = while_solid(items)
+        if solid:
+            draw = draw_interface_2d if Snapshot(*solid[-1]).dim == 2 else draw_interface_3d
+            pictures.append(draw(folder, solid, interface_title(solid, items)))
+        pictures.append(draw_flow(folder, items, normal_of(wish.plane, tables["solid"])))
     for picture in pictures:
         if picture:
             print(f"  wrote {picture}")

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/version.hpp"
 
@@ -82,22 +83,6 @@ std::vector<std::string> split(const std::string& text) {
   return items;
 }
 
-/// Edit distance [Levenshtein66].
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t up = row[j];
-      row[j] = std::min({up + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = up;
-    }
-  }
-  return row[b.size()];
-}
-
 std::string joined(const std::vector<std::string>& items) {
   std::string text;
   for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
@@ -112,60 +97,6 @@ std::vector<std::string> unread() {
   std::vector<std::string> list(names, names + n);
   FSI_PETSC(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
   return list;
-}
-
-bool has_prefix(const std::string& name, std::initializer_list<const char*> prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(),
-                     [&](const char* prefix) { return name.starts_with(prefix); });
-}
-
-/// Options that PETSc and MPI read as they start or end: logging, memory, debugging.
-bool of_petsc(const std::string& name) {
-  return has_prefix(name, {"citations",
-                           "debug",
-                           "device_",
-                           "display",
-                           "error_output",
-                           "fp_trap",
-                           "get_total_flops",
-                           "help",
-                           "history",
-                           "info",
-                           "log_",
-                           "malloc",
-                           "memory_",
-                           "mpi_",
-                           "no_signal",
-                           "objects_",
-                           "on_error",
-                           "options_",
-                           "petsc_",
-                           "saws",
-                           "shared_tmp",
-                           "not_shared_tmp",
-                           "skip_petscrc",
-                           "start_in_debugger",
-                           "stop_for_debugger",
-                           "tmp",
-                           "use_",
-                           "version",
-                           "viewer_",
-                           "x_"});
-}
-
-/// Options that a solver may read later: those of the linear systems (p_, u_) and of what they
-/// hold.
-bool of_solver(const std::string& name) {
-  return has_prefix(name, {"p_", "u_", "ksp_", "pc_", "mat_", "mumps_", "vec_", "dm_", "sf_", "is_",
-                           "dmplex_", "petscpartitioner_", "hypre_"});
-}
-
-/// The option that stands nearest to a name; "" where there is none.
-std::string nearest(const std::string& name, const std::vector<std::string>& valid) {
-  const auto found = std::min_element(
-      valid.begin(), valid.end(),
-      [&](const auto& a, const auto& b) { return distance(name, a) < distance(name, b); });
-  return found == valid.end() ? "" : *found;
 }
 
 /// The options that were given, from whatever source: name and value.
@@ -227,8 +158,11 @@ void Options::record(Entry entry) {
 
 Real Options::real(const std::string& name, Real fallback, const Spec& spec) {
   const auto text = raw(name);
+  const auto shown = [](Real value) { return std::isnan(value) ? "" : number(value); };
+  require(text || help_ || !std::isnan(fallback),
+          "option -" + name + " is missing: " + with_unit(spec));
   const Real value = text ? parse(name, *text, spec) : fallback;
-  record({name, number(value), number(fallback), with_unit(spec), range(spec)});
+  record({name, shown(value), shown(fallback), with_unit(spec), range(spec)});
   return value;
 }
 

@@ -29,6 +29,7 @@ class Options {
   /// `program` and `purpose` head the -help text.
   Options(std::string program, const std::string& purpose);
 
+  /// fallback: not a number where the user must give the option.
   Real real(const std::string& name, Real fallback, const Spec& spec);
   int integer(const std::string& name, int fallback, const Spec& spec);
   bool flag(const std::string& name, bool fallback, const std::string& help);

@@ -17,7 +17,4 @@ std::string text_of(const Vec3& x);
 /// "a, b, c".
 std::string text_of(const std::vector<std::string>& names);
 
-/// The name that differs from `name` by the fewest edits; "" where none is near.
-std::string nearest(const std::string& name, const std::vector<std::string>& names);
-
 }  // namespace fsi

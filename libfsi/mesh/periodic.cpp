@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/mesh/messages.hpp"
 
 namespace fsi {
@@ -59,7 +60,7 @@ class Classes {
 std::vector<Index> nodes_of(const RawMesh& raw, const std::string& name) {
   const auto found = std::ranges::find(raw.names, name);
   if (found == raw.names.end()) {
-    const std::string near = nearest(name, raw.names);
+    const std::string near = nearest(name, raw.names, name.size() / 2);
     throw Error(ErrorKind::input, raw.file + ": periodic patch \"" + name +
                                       "\" unknown; mesh has: " + text_of(raw.names) +
                                       (near.empty() ? "" : "; did you mean \"" + near + "\"?"));

@@ -45,6 +45,33 @@ Physics read_physics(Options& options) {
   return physics;
 }
 
+/// Density and viscosity in words.
+std::string fluid(const Options& options, const Physics& physics) {
+  const auto given = [&](const char* name) {
+    return options.given(name) ? "" : " (not given, the default)";
+  };
+  return print("density %g%s, viscosity %g%s, kinematic viscosity %g", physics.rho,
+               given("fluid_density"), physics.mu_f, given("fluid_viscosity"),
+               physics.mu_f / physics.rho);
+}
+
+/// Rank 0. What answers the flow at the openings.
+void tell_of_loads(const Conditions& conditions) {
+  for (const auto& [name, condition] : conditions) {
+    const auto* opening = std::get_if<Opening>(&condition);
+    if (opening == nullptr || !opening->load.any()) continue;
+    const Load& load = opening->load;
+    std::printf("patch %s: resistance %g", name.c_str(), load.proximal);
+    if (load.distal > 0)
+      std::printf(
+          ", distal resistance %g, capacitance %g: its pressure follows the flow with the time "
+          "R_d C = %g, and R / (R + R_d) = %.3g of it at once",
+          load.distal, load.capacitance, load.distal * load.capacitance,
+          load.proximal / (load.proximal + load.distal));
+    std::printf("\n");
+  }
+}
+
 FlowSetup read_flow(Options& options) {
   FlowSetup flow;
   flow.convection = flow::convection_of(options.choice(
@@ -97,7 +124,8 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   output.restart =
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
   output.end_when_empty =
-      options.flag("end_when_empty", false, "end the run once the solid has left the mesh");
+      options.flag("end_when_empty", false,
+                   "end the run once all solids have left the mesh: no cell is half full");
   output.wall_seconds_max = options.real(
       "max_wall_time", 0,
       {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});
@@ -149,6 +177,7 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   Case result;
   result.mesh = read_mesh_options(options, path);
   result.physics = read_physics(options);
+  result.fluid = fluid(options, result.physics);
   result.flow = read_flow(options);
   result.solids = read_solids(options, result.physics);
   // What the solid costs is spent in its cells and those its surface cuts; these too are counted
@@ -214,6 +243,8 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
   if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = setup.physics;
+  std::printf("fluid: %s\n", setup.fluid.c_str());
+  tell_of_loads(setup.flow.conditions);
   if (velocity == 0)
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");
   else
@@ -236,13 +267,14 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
 
 std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (time.step > 0) return {{time.step, "fixed"}};
-  std::vector<Limit> all{{solver.advective_dt(time.courant), "advective"}};
+  // The solid's way through the flow has a limit of its own under the same name.
+  const Real carried = solver.body() != nullptr ? solver.carried_dt() : Limit{}.dt;
+  std::vector<Limit> all{{std::min(solver.advective_dt(time.courant), carried), "advective"}};
   // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
   // run is then small enough.
   constexpr int steps_of_start = 10;
   if (solver.state().step < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
-  if (solver.body() != nullptr) all.push_back({solver.carried_dt(), "advective"});
   if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
   if (solver.body() != nullptr) all.push_back({solver.strain_dt(solid::strain_of_part), "strain"});
   if (time.step_first > 0)

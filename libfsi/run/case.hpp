@@ -43,15 +43,19 @@ struct SolidSetup {
 struct Case {
   MeshOptions mesh;
   Physics physics;
-  FlowSetup flow;  ///< without conditions
+  std::string fluid;  ///< in words, with what is there by default
+  FlowSetup flow;     ///< without conditions
   std::vector<SolidSetup> solids;
   TimeSetup time;
   OutputSetup output;
 };
 
 /// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
-/// NAME with a shape. Errors: Error{input}.
+/// NAME with a shape. Errors: Error{input}, also where options of a solid are there and its shape
+/// is not.
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
+/// What the options of the solids begin with whose shape is given as "none".
+std::vector<std::string> solids_without_shape(const Options& options);
 /// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
 void put_solids(Solver& solver, const Case& setup);
 
@@ -67,7 +71,8 @@ std::string simulated(const Options& options);
 std::string differences(const std::string& before, const std::string& now);
 
 /// Collective. Prints what the run is about: the mesh and its figures, a warning where one is past
-/// its limit (mesh/figures.hpp), and the numbers that follow from the case's length and velocity.
+/// its limit (mesh/figures.hpp), the fluid, what loads the openings, and the numbers that follow
+/// from the case's length and velocity.
 /// velocity 0: it is not known yet, and what depends on it is left out.
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity);
 

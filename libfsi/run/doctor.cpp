@@ -35,16 +35,17 @@ void tell_of_cells(const Mesh& mesh) {
 }
 
 void tell_of_patches(const Mesh& mesh) {
-  say(print("%-16s %10s %12s  %-34s %s", "patch", "faces", mesh.dim == 2 ? "length" : "area",
-            "mean normal", "shape"));
+  say(print("%-16s %10s %12s %12s  %-34s %-34s %s", "patch", "faces",
+            mesh.dim == 2 ? "length" : "area", "diameter", "centre", "mean normal", "shape"));
   for (const Patch& patch : mesh.patches) {
     const PatchFigures p = patch_figures(mesh, patch);
     const std::string shape = p.flat ? "flat"
                               : p.normal == Vec3{}
                                   ? "closed round"
                                   : print("not flat, to %.1f deg from its mean", p.degrees);
-    say(print("%-16s %10lld %12.6g  %-34s %s", patch.name.c_str(), static_cast<long long>(p.faces),
-              p.area, p.normal == Vec3{} ? "none" : text_of(p.normal).c_str(), shape.c_str()));
+    say(print("%-16s %10lld %12.6g %12.6g  %-34s %-34s %s", patch.name.c_str(),
+              static_cast<long long>(p.faces), p.area, p.diameter, text_of(p.centre).c_str(),
+              p.normal == Vec3{} ? "none" : text_of(p.normal).c_str(), shape.c_str()));
   }
 }
 
@@ -210,11 +211,14 @@ PatchFigures patch_figures(const Mesh& mesh, const Patch& patch) {
   PatchFigures p;
   p.faces = global_sum(static_cast<GlobalIndex>(patch.end - patch.begin));
   p.area = total[0];
+  p.diameter = mesh.dim == 2 ? p.area : std::sqrt(4 * p.area / std::numbers::pi);
   const Vec3 S{total[1], total[2], total[3]}, middle = Vec3{total[4], total[5], total[6]} / p.area;
-  constexpr Real negligible = 1e-6;
+  constexpr Real negligible = 1e-6, rounding = 1e-12;
+  for (int k = 0; k < 3; ++k)
+    p.centre[k] = std::abs(middle[k]) < rounding * p.diameter ? 0 : middle[k];
   if (norm(S) > negligible * p.area) p.normal = S / norm(S);
   for (int k = 0; k < 3; ++k)
-    if (std::abs(p.normal[k]) < 1e-12) p.normal[k] = 0;
+    if (std::abs(p.normal[k]) < rounding) p.normal[k] = 0;
   Real sine = 0, cosine = 1, away = 0;
   for (Index f = patch.begin; f < patch.end; ++f) {
     const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);

@@ -27,6 +27,8 @@ Treatment treatment(const Mesh& mesh, const FaceWeights& weights);
 struct PatchFigures {
   GlobalIndex faces = 0;
   Real area = 0;
+  Real diameter = 0;  ///< of the circle of that area, (4 A / pi)^(1/2); in 2-D the length
+  Vec3 centre{};      ///< mean of its points
   Vec3 normal{};      ///< outward, of the sum of the area vectors; zero where they cancel
   Real degrees = 0;   ///< largest angle between a face's normal and that
   bool flat = false;  ///< all faces lie in one plane, to 1e-6 of the patch's size

@@ -36,12 +36,12 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
       lock_(io::make_directory(setup.output.directory)),
       checkpoints_(setup.output.directory, solver.mesh()),
       energy_(solver),
+      watch_(solver.bodies().size()),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval),
       checkpoint_(setup.output.checkpoint_interval) {
   for (std::size_t i = 0; i < solver.bodies().size(); ++i)
     records_.emplace_back(i < setup.solids.size() && setup.solids[i].shape_name == "torus");
-  said_.resize(records_.size());
   if (setup.output.restart) {
     go_on_from_checkpoint();
   } else {
@@ -171,7 +171,7 @@ bool Output::go_on() {
   const Signal signal = pending_signal();
   const Real wall = case_.output.wall_seconds_max;
   if (signal == Signal::checkpoint) write_checkpoint();
-  interrupted_ = signal == Signal::end || (wall > 0 && global_max(watch_.seconds()) > wall);
+  interrupted_ = signal == Signal::end || (wall > 0 && global_max(stopwatch_.seconds()) > wall);
   const bool empty = !solver_.bodies().empty() &&
                      std::ranges::all_of(solver_.bodies(), [](auto& b) { return b.gone != 0; });
   if (empty && case_.output.end_when_empty) return false;
@@ -202,58 +202,18 @@ void Output::write_due(const Limit& asked, Real dt) {
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
-  watch_energy(dt);
-  tell_of_leaving();
+  energy_.add(solver_, dt);
+  if (const std::string wrong = watch_.energy(energy_.part_made(), s); !wrong.empty())
+    solver_.report().failure = wrong;
+  watch_.leaving(solver_);
   write_rows(limit, dt);
   if (field_.due(s.t)) write_fields();
   if (checkpoint_.due(s.t)) write_checkpoint();
   constexpr Real seconds_between = 1;
-  if (!agreed(watch_.seconds() > progress_at_ + seconds_between || s.step == first_step_ + 1))
+  if (!agreed(stopwatch_.seconds() > progress_at_ + seconds_between || s.step == first_step_ + 1))
     return;
   write_progress(limit, dt);
-  progress_at_ = watch_.seconds();
-}
-
-/// A word when the run has made energy, and its end where it has made most of what there is: such a
-/// run is wrong, whatever else it tells. The start from an impulse is not judged.
-void Output::watch_energy(Real dt) {
-  constexpr Real odd = 0.1, wrong = 0.5;
-  constexpr int start = 20;
-  energy_.add(solver_, dt);
-  const Real part = energy_.part_made();
-  if (solver_.state().step < start || part < odd) return;
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of "
-                "flow.csv)",
-                solver_.state().t, 100 * part);
-  const std::string advice =
-      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity";
-  if (part > wrong) solver_.report().failure = text.data() + advice;
-  if (!told_of_energy_ && part <= wrong && rank() == 0)
-    std::fprintf(stderr, "fsi: warning: %s%s\n", text.data(), advice.c_str());
-  told_of_energy_ = true;
-}
-
-/// A word when a solid begins to leave the mesh, and one when nothing of it is left.
-void Output::tell_of_leaving() {
-  for (std::size_t i = 0; i < said_.size(); ++i) {
-    const Body& body = solver_.bodies()[i];
-    if (body.volume_out <= 0) continue;
-    const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
-    said_[i] = {.leaving = true, .left = body.gone != 0};
-    if (rank() != 0) continue;
-    const std::string of = body.name.empty() ? "" : "_" + body.name;
-    const std::string which = body.name.empty() ? "solid" : "solid " + body.name;
-    if (begins)
-      std::fprintf(stderr,
-                   "fsi: notice: %s leaves the mesh from t = %g on: column volume_out of "
-                   "solid%s.csv\n",
-                   which.c_str(), solver_.state().t, of.c_str());
-    if (ends)
-      std::fprintf(stderr, "fsi: notice: the last of the %s left the mesh at t = %g\n",
-                   which.c_str(), solver_.state().t);
-  }
+  progress_at_ = stopwatch_.seconds();
 }
 
 /// The largest of the solids.
@@ -277,7 +237,9 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const Body& body = solver_.bodies()[i];
     all.push_back({s.t, body.t, {}});
-    if (body.gone == 0) all.back().entries = records_[i].row(solver_, body);
+    if (body.gone != 0) continue;
+    all.back().entries = records_[i].row(solver_, body);
+    watch_.strain(i, solver_, records_[i].soundness());
   }
   return all;
 }
@@ -291,7 +253,7 @@ void Output::write_rows(const Limit& limit, Real dt) {
   const bool near = samples_.near(s.t, steps_ahead * std::max(dt, limit.dt));
   std::vector<Row> now;
   if (near || !times.empty()) {
-    const Real seconds = watch_.seconds();
+    const Real seconds = stopwatch_.seconds();
     const auto steps = static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
     now = rows(limit, dt, (seconds - rows_at_) / steps);
     if (!times.empty()) rows_at_ = seconds, row_step_ = s.step;
@@ -331,7 +293,7 @@ void Output::write_progress(const Limit& limit, Real dt) {
   divergence_ = flow::divergence_max(s.phi, solver_.mesh());
   const Real courant = dt / solver_.advective_dt(1);
   if (rank() != 0) return;
-  const Real left = forecast_.seconds_left(watch_.seconds(), s.t, case_.time.end);
+  const Real left = forecast_.seconds_left(stopwatch_.seconds(), s.t, case_.time.end);
   std::printf(
       "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
       "%s\n",
@@ -352,7 +314,7 @@ std::string Output::summary(const std::string& status) const {
   s.first_step = first_step_;
   s.rejected_steps = solver_.report().rejected;
   s.t = solver_.state().t;
-  s.wall_seconds = watch_.seconds();
+  s.wall_seconds = stopwatch_.seconds();
   s.divergence_max = divergence_;
   s.solid_volume_drift = drift();
   s.phases = solver_.profile().seconds();
@@ -379,7 +341,7 @@ RunStatus Output::finish() {
   if (rank() == 0)
     std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n",
                 interrupted_ ? "interrupted" : "complete", solver_.state().t,
-                static_cast<long long>(solver_.state().step), watch_.seconds(),
+                static_cast<long long>(solver_.state().step), stopwatch_.seconds(),
                 case_.output.directory.c_str());
   return interrupted_ ? RunStatus::interrupted : RunStatus::complete;
 }

@@ -17,6 +17,7 @@
 #include "libfsi/run/case.hpp"
 #include "libfsi/run/records.hpp"
 #include "libfsi/run/samples.hpp"
+#include "libfsi/run/watch.hpp"
 #include "libfsi/solver/energy.hpp"
 
 namespace fsi {
@@ -58,8 +59,6 @@ class Output {
   void open();
   void open_tables();
   void write_due(const Limit& asked, Real dt);
-  void watch_energy(Real dt);
-  void tell_of_leaving();
   void write_rows(const Limit& limit, Real dt);
   std::vector<Row> rows(const Limit& limit, Real dt, Real wall_per_step);
   Limit count(const Limit& limit, Real dt);
@@ -75,6 +74,7 @@ class Output {
   io::Lock lock_;
   io::Checkpoint checkpoints_;
   EnergyBalance energy_;
+  Watch watch_;
   std::vector<SolidRecord> records_;  // of the bodies
   Samples samples_;
   std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
@@ -82,17 +82,13 @@ class Output {
   std::optional<io::Table> flow_;
   std::vector<std::optional<io::Table>> solids_;  // of the bodies; none where it had left
   std::optional<io::FieldWriter> fields_;
-  Stopwatch watch_;
+  Stopwatch stopwatch_;
   Forecast forecast_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
   std::map<std::string, Real> limits_;  // steps by what set their length
   std::string message_;                 // why the run ended, where no step failed
-  bool interrupted_ = false, finished_ = false, told_of_energy_ = false;
-  struct Said {
-    bool leaving = false, left = false;
-  };
-  std::vector<Said> said_;  // of the bodies
+  bool interrupted_ = false, finished_ = false;
   Real drift() const;
 };
 

@@ -1,22 +1,26 @@
 #include "libfsi/run/patches.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
+#include <limits>
+#include <map>
 #include <numbers>
-#include <sstream>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
+#include "libfsi/run/table_file.hpp"
 
 namespace fsi {
 namespace {
 
 const std::vector<std::string> types{"wall",       "symmetry",  "pressure", "resistance",
                                      "windkessel", "flow_rate", "velocity"};
+
+constexpr Real to_be_given = std::numeric_limits<Real>::quiet_NaN();
 
 /// The options of one patch.
 class PatchOptions {
@@ -35,49 +39,68 @@ class PatchOptions {
   void list() {
     for (const std::string& type : types) read(type);
   }
+  /// What was read, without what it begins with.
+  const std::vector<std::string>& keys() const { return keys_; }
 
  private:
+  /// The option of that key.
+  std::string of(const std::string& key) {
+    if (std::ranges::count(keys_, key) == 0) keys_.push_back(key);
+    return name_ + key;
+  }
   Real real(const std::string& key, Real fallback, const std::string& help,
             const std::string& unit) {
-    return options_.real(name_ + key, fallback, {.help = help, .unit = unit, .min = 0});
+    return options_.real(of(key), fallback, {.help = help, .unit = unit, .min = 0});
   }
-  /// A number, or a csv file of numbers over time.
-  OfTime of_time(const std::string& key, const std::string& fallback, const std::string& help) {
+  /// A number, or a csv file of numbers over time. symbol: another name of its column.
+  OfTime of_time(const std::string& key, const std::string& symbol, const std::string& fallback,
+                 const std::string& help) {
     const std::string text = options_.text_or_file(
-        name_ + key, fallback, help + "; a number or a csv file of time and value");
+        of(key), fallback, help + "; a number or a csv file of time and value");
     const Real period =
         real("period", 0, "time after which the values of a csv file come again; 0: never", "time");
     char* end = nullptr;
     const Real value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() && *end == '\0' && std::isfinite(value)) return value;
     if (options_.help()) return 0;
-    require(text.ends_with(".csv"), "option -" + name_ + key + ": \"" + text +
+    require(!text.empty(), "option -" + of(key) + " is missing: " + help);
+    require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
-    return series(text, period);
+    return series(text, period, {key, symbol, "value"});
   }
 
   Condition wall() {
     return Wall{options_.vec3(
-        name_ + "wall_velocity", {},
+        of("wall_velocity"), {},
         {.help = "wall: it slides in its own plane or along its axis", .unit = "velocity"})};
   }
   Condition flow_rate() {
-    const OfTime rate = of_time("flow_rate", "0", "flow_rate: into the domain, volume per time");
+    const OfTime rate =
+        of_time("flow_rate", "q", "", "flow_rate, to be given: into the domain, volume per time");
     const std::string profile = options_.choice(
-        name_ + "profile", "parabola", {"parabola", "plug"},
+        of("profile"), "parabola", {"parabola", "plug"},
         "flow_rate: as developed flow in a vessel of that section, or the same everywhere");
     return FlowRate{.rate = rate,
                     .profile = profile == "plug" ? InflowProfile::plug : InflowProfile::parabola};
   }
   Condition velocity() {
-    const Vec3 u = options_.vec3(name_ + "velocity", {},
+    const Vec3 u = options_.vec3(of("velocity"), {},
                                  {.help = "velocity: the same everywhere", .unit = "velocity"});
     const std::string file = options_.text_or_file(
-        name_ + "velocity_file", "", "velocity: csv file of x,y,z,ux,uy,uz, taken at the nearest");
-    const OfTime factor = of_time("velocity_factor", "1", "velocity: what it is multiplied by");
+        of("velocity_file"), "", "velocity: csv file of x,y,z,ux,uy,uz, taken at the nearest");
+    require(options_.help() || options_.given(name_ + "velocity") || !file.empty(),
+            "option -" + of("velocity") + " is missing: a patch of type velocity needs it or -" +
+                of("velocity_file"));
+    require(options_.help() || file.empty() || u == Vec3{},
+            "options -" + of("velocity") + " and -" + of("velocity_file") +
+                " exclude each other; give one of them");
+    const OfTime factor =
+        of_time("velocity_factor", "factor", "1", "velocity: what it is multiplied by");
     if (file.empty() || options_.help())
       return FixedVelocity{[=](const Vec3&, Real t) { return factor(t) * u; }};
-    return FixedVelocity{[rows = read_rows(file, 6), factor](const Vec3& x, Real t) {
+    const std::vector<std::vector<Real>> rows =
+        read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}});
+    return FixedVelocity{[rows, factor](const Vec3& x, Real t) {
       const auto at = [](const std::vector<Real>& row) { return Vec3{row[0], row[1], row[2]}; };
       const auto nearest = std::ranges::min_element(
           rows, {}, [&](const std::vector<Real>& row) { return norm2(x - at(row)); });
@@ -86,23 +109,28 @@ class PatchOptions {
   }
   Condition opening(const std::string& type) {
     Opening opening{
-        of_time("pressure", "0", "pressure, resistance, windkessel: given, or beyond it")};
+        of_time("pressure", "p", "0", "pressure, resistance, windkessel: given, or beyond it")};
     if (type == "pressure") return opening;
     const std::string unit = "pressure time / volume";
+    require(type != "resistance" || options_.help() || options_.given(name_ + "resistance"),
+            "option -" + of("resistance") + " is missing: a patch of type resistance needs it");
     opening.load.proximal =
         real("resistance", 0, "resistance, windkessel: pressure per flow rate out", unit);
     if (type == "resistance") return opening;
-    opening.load.distal = real("distal_resistance", 1, "windkessel: beside the capacitance", unit);
+    opening.load.distal = real("distal_resistance", to_be_given,
+                               "windkessel, to be given: resistance beside the capacitance", unit);
     opening.load.capacitance =
-        real("capacitance", 1, "windkessel: volume per pressure", "volume / pressure");
+        real("capacitance", to_be_given, "windkessel, to be given: volume per pressure",
+             "volume / pressure");
     opening.load.stored =
-        options_.real(name_ + "stored_pressure", 0,
+        options_.real(of("stored_pressure"), 0,
                       {.help = "windkessel: of the capacitance at the start", .unit = "pressure"});
     return opening;
   }
 
   Options& options_;
   std::string name_;
+  std::vector<std::string> keys_{"type"};
 };
 
 std::string joined(const std::vector<std::string>& words) {
@@ -111,9 +139,80 @@ std::string joined(const std::vector<std::string>& words) {
   return list;
 }
 
+/// "; did you mean ...?", where a word is near.
+std::string meant(const std::string& word, const std::vector<std::string>& valid) {
+  const std::string near = nearest(word, valid, word.size() / 2);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
+std::vector<std::string> names_of(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
+  return names;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Whether `text` begins with the name of a patch and an underscore; letters of either case, as
+/// PETSc finds its options.
+bool begins_with(const std::string& text, const std::string& patch) {
+  return lower(text).starts_with(lower(patch) + "_");
+}
+
+/// The longest name of a patch that `text` begins with; "" where it is of none.
+std::string patch_of(const std::string& text, const Mesh& mesh) {
+  std::string found;
+  for (const Patch& patch : mesh.patches)
+    if (begins_with(text, patch.name) && patch.name.size() > found.size()) found = patch.name;
+  return found;
+}
+
+/// Errors: Error{input} where an option patches_... is of no patch of the mesh, or a patch has a
+/// name that no option can have.
+void check_patch_names(const Options& options, const Mesh& mesh) {
+  for (const std::string& name : names_of(mesh)) {
+    const auto fits = [](unsigned char c) {
+      return std::isalnum(c) != 0 || c > 127 || c == '_' || c == '-' || c == '.' || c == '+';
+    };
+    require(std::ranges::all_of(name, fits),
+            "patch \"" + name + "\" of the mesh: its name becomes part of options and columns, " +
+                "which take letters, digits and _ - + . only; rename its Physical group in gmsh");
+  }
+  const std::string has = "the mesh has: " + joined(names_of(mesh));
+  for (const std::string& name : names_of(mesh))
+    require(!options.given("patches_" + name), "option -patches_" + name +
+                                                   ": a patch takes a type, patches: {" + name +
+                                                   ": {type: ...}}; choose from: " + joined(types));
+  const auto check = [&](const std::vector<std::string>& given, const std::string& end) {
+    for (const std::string& text : given)
+      if (patch_of(text + end, mesh).empty())
+        throw Error(ErrorKind::input, "option -patches_" + text + end + " is of no patch" +
+                                          (end.empty() ? "" : ": \"" + text + "\" is unknown") +
+                                          "; " + has + meant(text, names_of(mesh)));
+  };
+  check(options.names("patches_", "_type"), "_type");
+  check(options.names("patches_", ""), "");
+}
+
+/// Errors: Error{input} where a patch is given what its type does not take.
+void check_keys(const Options& options, const Mesh& mesh, const std::string& patch,
+                const std::string& type, const std::vector<std::string>& keys) {
+  for (const std::string& text : options.names("patches_", "")) {
+    if (patch_of(text, mesh) != patch) continue;
+    const std::string key = text.substr(patch.size() + 1);
+    require(std::ranges::count(keys, lower(key)) > 0,
+            "option -patches_" + text + ": a patch of type " + type + " has no " + key +
+                "; it takes: " + joined(keys) + meant(key, keys));
+  }
+}
+
 }  // namespace
 
 Conditions read_patches(Options& options, const Mesh& mesh) {
+  check_patch_names(options, mesh);
   Conditions conditions;
   for (const Patch& patch : mesh.patches) {
     const std::string name = "patches_" + patch.name + "_type";
@@ -122,55 +221,11 @@ Conditions read_patches(Options& options, const Mesh& mesh) {
                                               "give -" + name + "; choose from: " + joined(types));
     const std::string type =
         options.choice(name, clear ? patch.name : "wall", types, "what stands at this patch");
-    conditions[patch.name] = PatchOptions(options, patch.name).read(type);
+    PatchOptions of_patch(options, patch.name);
+    conditions[patch.name] = of_patch.read(type);
+    check_keys(options, mesh, patch.name, type, of_patch.keys());
   }
   return conditions;
-}
-
-std::vector<std::vector<Real>> read_rows(const std::string& file, std::size_t columns) {
-  std::string text = "?";
-  if (rank() == 0)
-    if (std::ifstream stream(file); stream)
-      text = std::string(std::istreambuf_iterator<char>(stream), {});
-  text = broadcast(text);
-  require(text != "?", "cannot read the file \"" + file + "\"");
-  std::ranges::replace(text, ',', ' ');
-  std::istringstream stream(text);
-  std::vector<std::vector<Real>> rows;
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || std::string("0123456789+-.").find(line[first]) > 12) continue;
-    std::istringstream items(line);
-    std::vector<Real>& row = rows.emplace_back();
-    for (Real value; items >> value;) row.push_back(value);
-    require(row.size() == columns && items.eof(), "file \"" + file + "\": the line \"" + line +
-                                                      "\" is not " + std::to_string(columns) +
-                                                      " numbers");
-  }
-  require(!rows.empty(), "file \"" + file + "\" holds no numbers");
-  return rows;
-}
-
-OfTime series(const std::string& file, Real period) {
-  const std::vector<std::vector<Real>> rows = read_rows(file, 2);
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    require(rows[i][0] > rows[i - 1][0],
-            "file \"" + file + "\": its times must grow from row to row");
-  require(period == 0 || period >= rows.back()[0] - rows.front()[0],
-          "file \"" + file + "\" is longer than its period");
-  return [rows, period](Real t) {
-    const Real start = rows.front()[0];
-    if (period > 0) t = start + (t - start) - period * std::floor((t - start) / period);
-    const auto next =
-        std::ranges::upper_bound(rows, t, {}, [](const std::vector<Real>& row) { return row[0]; });
-    if (next == rows.begin()) return rows.front()[1];
-    const std::vector<Real>& a = *(next - 1);
-    // Behind the last row a period leads back to the first.
-    const bool behind = next == rows.end();
-    if (behind && (period == 0 || a[0] >= start + period)) return a[1];
-    const Real t_b = behind ? start + period : (*next)[0], b = behind ? rows[0][1] : (*next)[1];
-    return a[1] + (b - a[1]) * (t - a[0]) / (t_b - a[0]);
-  };
 }
 
 namespace {
@@ -191,6 +246,8 @@ Path read_path(Options& options, const std::string& of) {
 }  // namespace
 
 void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh& mesh) {
+  Options aside(options);
+  for (const std::string& of : solids_without_shape(options)) read_path(aside, of);
   for (SolidSetup& solid : solids) {
     const std::string& of = solid.options;
     const auto [path, s] = read_path(options, of);

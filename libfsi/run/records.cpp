@@ -9,6 +9,7 @@
 
 #include "libfsi/analysis/measures.hpp"
 #include "libfsi/analysis/orientation.hpp"
+#include "libfsi/analysis/pieces.hpp"
 #include "libfsi/analysis/ring.hpp"
 #include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/error.hpp"
@@ -212,6 +213,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
+  constexpr Real piece = 0.01;
+  soundness_ = {h.eigenvalue_min, analysis::pieces(body.alpha, piece * volume_0_, mesh)};
   std::vector<Entry> row{{"t", solver.state().t}};
   add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);
@@ -222,6 +225,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   row.push_back({"det_B_min", h.det_min});
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
+  row.push_back({"pieces", static_cast<Real>(soundness_.pieces), Course::step});
   row.push_back({"overshoot", body.advected.remaining, Course::step});
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});

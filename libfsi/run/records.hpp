@@ -27,6 +27,12 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// 2-D the width) of the patch where it is largest.
 std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
+/// What tells of a solid whether it is to be believed.
+struct Soundness {
+  Real eigenvalue_min = 1;  ///< of B in cells more than half solid
+  int pieces = 1;           ///< of a hundredth of its volume or more
+};
+
 /// Follows the solid from row to row. What it remembers is part of a checkpoint.
 class SolidRecord {
  public:
@@ -38,6 +44,8 @@ class SolidRecord {
   std::vector<Entry> row(const Solver& solver, const Body& body);
   /// Relative change of volume since the start, at the last row.
   Real drift() const { return drift_; }
+  /// At the last row.
+  const Soundness& soundness() const { return soundness_; }
   /// name: of the body.
   void list(io::Snapshot& snapshot, const std::string& name);
 
@@ -47,6 +55,7 @@ class SolidRecord {
   std::int64_t started_ = 0;  // of the tracker, as a checkpoint holds it
   Vec3 axis_, zeta_;
   Real volume_0_ = 0, drift_ = 0;
+  Soundness soundness_;
 };
 
 /// B of every cell: the unit tensor outside the solid.

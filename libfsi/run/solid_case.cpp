@@ -9,6 +9,9 @@
 namespace fsi {
 namespace {
 
+const std::vector<std::string> shapes_known{"none", "torus",    "sphere", "ellipsoid",
+                                            "disk", "cylinder", "capsule"};
+
 Real length(Options& options, const std::string& name, Real fallback, const std::string& help) {
   return options.real(name, fallback, {.help = help, .unit = "length", .positive = true});
 }
@@ -113,8 +116,9 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.name = name;
   solid.options = of;
   solid.shape_name = options.choice(
-      of + "shape", "none", {"none", "torus", "sphere", "ellipsoid", "disk", "cylinder", "capsule"},
-      "undeformed shape; none: no solid");
+      of + "shape", "none", shapes_known,
+      "undeformed shape; none: no solid. Of several solids each has all of these options under "
+      "a name of its own: -solids_NAME_shape ...");
   const bool none = solid.shape_name == "none";
   Options aside(options);
   Options& read = none && !options.help() ? aside : options;
@@ -125,6 +129,22 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   if (!none) solids.push_back(std::move(solid));
 }
 
+/// Errors: Error{input} where the options tell of a solid without a shape.
+void check_shapes(const Options& options, const std::vector<std::string>& names) {
+  std::string list;
+  if (names.empty() && !options.given("solid_shape"))
+    for (const std::string& name : options.names("solid_", ""))
+      list += (list.empty() ? "-solid_" : ", -solid_") + name;
+  std::string shapes;
+  for (const std::string& shape : shapes_known) shapes += (shapes.empty() ? "" : ", ") + shape;
+  require(list.empty(), "option -solid_shape is missing beside " + list +
+                            "; choose from: " + shapes + " (none: no solid)");
+  for (const std::string& text : options.names("solids_", ""))
+    require(std::ranges::any_of(names, [&](auto& name) { return text.starts_with(name + "_"); }),
+            "option -solids_" + text + " is of no solid: each has a name without blanks, and a " +
+                "shape in -solids_NAME_shape; choose from: " + shapes);
+}
+
 }  // namespace
 
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
@@ -133,7 +153,19 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   if (names.empty() || options.help()) add_solid(solids, options, "solid_", "", physics);
   for (const std::string& name : names)
     add_solid(solids, options, "solids_" + name + "_", name, physics);
+  if (!options.help()) check_shapes(options, names);
   return solids;
+}
+
+std::vector<std::string> solids_without_shape(const Options& options) {
+  Options aside(options);
+  std::vector<std::string> begins{"solid_"}, found;
+  for (const std::string& name : options.names("solids_", "_shape"))
+    begins.push_back("solids_" + name + "_");
+  for (const std::string& of : begins)
+    if (options.given(of + "shape") && aside.text(of + "shape", "", "") == "none")
+      found.push_back(of);
+  return found;
 }
 
 }  // namespace fsi

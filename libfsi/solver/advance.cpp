@@ -18,7 +18,6 @@ namespace {
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
 constexpr Real elastic_max = 5;             // elastic waves: found stable up to here
-constexpr Real eigenvalue_min = 1e-4;       // of B: its condition number reaches 1e8
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
@@ -45,7 +44,7 @@ Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
     return {which + " became too stiff for the step", Term::elasticity, &body};
   if (dt > strain_dt(solid::strain_max) || global_max(body.strain.of_part) > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};
-  if (global_min(body.eigenvalue_min) < eigenvalue_min)
+  if (global_min(body.eigenvalue_min) < eigenvalue_limit)
     return {"the smallest eigenvalue of B" + (body.name.empty() ? "" : " of " + which) +
                 " fell below 1e-4",
             Term::eigenvalue, &body};

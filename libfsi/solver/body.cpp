@@ -144,9 +144,10 @@ bool Body::count_out() {
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) out.add(advect_scratch.solid[f]);
   volume_out += out.total();
   if (volume_out <= 1e-12 * filled.volume || gone != 0) return false;
-  Sum left, taken;
+  Sum left, taken, half_solid;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     specks[c] = 0;
+    if (alpha[c] >= solid::alpha_known) half_solid.add(1);
     if (alpha[c] == 0) continue;
     Real most = alpha[c];
     for (const Index n : mesh.cell_neighbours[c]) most = std::max(most, alpha[n]);
@@ -154,12 +155,12 @@ bool Body::count_out() {
     specks[c] = out_of_it ? 1 : 0;
     (out_of_it ? taken : left).add(mesh.V[c] * alpha[c]);
   }
-  std::array<Real, 2> total{};
-  Sum::totals(total, std::array{left, taken});
-  const bool all = total[0] < rest * filled.volume;
+  std::array<Real, 3> total{};
+  Sum::totals(total, std::array{left, taken, half_solid});
+  const bool all = total[0] < rest * filled.volume || total[2] == 0;
   if (!all && total[1] == 0) return false;
   volume_out += total[1] + (all ? total[0] : 0);
-  gone = all ? 1 : 0;
+  gone = all ? 1 : 0, residue = all ? total[0] + total[1] : 0;
   for (Index c = 0; c < mesh.n_owned; ++c)
     if (all || specks[c] != 0) alpha[c] = 0;
   mesh.halo.update(alpha);

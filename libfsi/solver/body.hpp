@@ -33,6 +33,9 @@ using Kinematics =
 /// As the options have it.
 std::string name_of(const Kinematics& kinematics);
 
+/// A step must not leave a smaller eigenvalue of B: its condition number reaches 1e8.
+inline constexpr Real eigenvalue_limit = 1e-4;
+
 /// What the surface between two viscosities needs.
 struct TwoViscosities {
   TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu)
@@ -66,9 +69,10 @@ struct Body {
   /// Collective. Holds alpha to the shape that the map tells, where there is one; renews the planes.
   void hold_shape();
   /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
-  /// out specks, cells with less than a hundredth of solid in themselves and all around them, and
-  /// the rest where that is less than a thousandth of the body; both count as having left. Returns
-  /// whether alpha was changed.
+  /// out specks, cells with less than a hundredth of solid in themselves and all around them. It
+  /// takes out the rest, the residue, where that is less than a thousandth of the body or where no
+  /// cell is half solid any more, so that no strain of it is known. Both count as having left.
+  /// Returns whether alpha was changed.
   bool count_out();
   /// Sets `touched` on the boundary faces of the listed owned cells, as the solid stands now. open:
   /// 1 on faces of openings, which count as not touched.
@@ -159,7 +163,8 @@ struct Body {
   std::vector<char> mirror;                      ///< [n_boundary] 1 on planes of symmetry
   std::vector<char> specks;                      ///< [n_owned] scratch
   Real volume_out = 0;                           ///< what left the mesh or was taken out after it
-  std::int64_t gone = 0;                         ///< 1: nothing is left
+  Real residue = 0;       ///< of this: what was taken out at the end, by this program
+  std::int64_t gone = 0;  ///< 1: nothing is left
 };
 
 }  // namespace fsi

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libfsi/core/eigen.hpp"
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/quality.hpp"
 #include "libfsi/operators/stencil.hpp"
@@ -42,6 +43,21 @@ std::string place(const Worst& w, const Mesh& mesh) {
 Real size_of(const Tensor& L) {
   return std::sqrt(L.xx * L.xx + L.xy * L.xy + L.xz * L.xz + L.yx * L.yx + L.yy * L.yy +
                    L.yz * L.yz + L.zx * L.zx + L.zy * L.zy + L.zz * L.zz);
+}
+
+/// Collective. 1 / (smallest eigenvalue of B) of cells half solid or more where one of them is past
+/// the limit; else of all in which B is set, specks of solid among them. 0 elsewhere.
+std::vector<Real> inverse_eigenvalues(const Body& body, const Mesh& mesh) {
+  std::vector<Real> all(static_cast<std::size_t>(mesh.n_owned)), known = all;
+  bool past = false;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (body.alpha[c] <= 0 || !(trace(body.B[c]) > 0)) continue;
+    all[c] = 1 / std::max(eigen(body.B[c]).value[0], std::numeric_limits<Real>::min());
+    if (body.alpha[c] < solid::alpha_known) continue;
+    known[c] = all[c];
+    past = past || known[c] * eigenvalue_limit > 1;
+  }
+  return all_of_ranks(!past) ? all : known;
 }
 
 }  // namespace
@@ -102,9 +118,8 @@ std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) con
   const auto waves = [&](Index c) {
     return dt / solid::elastic_time(body.lambda, body.G, physics_.rho, mesh_, {&c, 1});
   };
-  const auto crushed = [&](Index c) {
-    return 1 / std::max(eigen(body.B[c]).value[0], std::numeric_limits<Real>::min());
-  };
+  const std::vector<Real> inverse = inverse_eigenvalues(body, mesh_);
+  const auto crushed = [&](Index c) { return inverse[c]; };
   switch (term) {
     case Term::transport:
       return at_worst(of_solid(courant), "the largest Courant number of the solid's step",
@@ -119,7 +134,7 @@ std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) con
       return at_worst(of_solid([&](Index c) { return size_of(L_[c]); }),
                       "the largest velocity gradient in the solid", "its rate of strain limits");
     default:
-      return at_worst(of_solid(crushed), "the largest inverse of an eigenvalue of B",
+      return at_worst(crushed, "the largest inverse of an eigenvalue of B",
                       "the solid is crushed there");
   }
 }

@@ -2,6 +2,7 @@
 import os
 
 import faults as f
+import vessel_cases
 
 # Small meshes: geometry, dimension, parameters.
 MESHES = {
@@ -18,9 +19,10 @@ class Case:
     """A run that must fail. `mesh` names a good mesh, `damage` what is done to it."""
 
     def __init__(self, name, driver, arguments, *fragments, mesh="cavity", damage=None, yaml=None,
-                 size=None):
+                 size=None, files=None):
         self.name, self.driver, self.fragments = name, driver, fragments
         self.words, self.mesh, self.damage, self.yaml = arguments, mesh, damage, yaml
+        self.files = files or {}  # beside the case: name, text
         self.size = size  # of the damaged file: it goes on with a hole up to there
 
     def arguments(self, made, folder):
@@ -36,6 +38,9 @@ class Case:
                 if self.size:
                     os.truncate(path, self.size)
             words = ["-mesh", path] + words
+        for name, text in self.files.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
         if self.yaml is not None:
             path = os.path.join(folder, self.name.replace(" ", "-") + ".yaml")
             with open(path, "w", encoding="utf-8") as file:
@@ -83,7 +88,8 @@ OPTIONS = [
            "-solid_law_c2_share", "-0.1", "0 <= value"),
     option("law's limit zero", "-solid_law gent -solid_law_limit 0", "-solid_law_limit", "value > 0"),
     option("law's limit NaN", "-solid_law gent -solid_law_limit nan", "-solid_law_limit", "nan"),
-    option("option of another law", "-solid_law gent -solid_law_c2_share 0.3", "-solid_law_c2_share"),
+    option("option of another law", "-solid_shape sphere -solid_center 0.5,0.5,0 -solid_law gent "
+           "-solid_law_c2_share 0.3", "-solid_law_c2_share"),
     option("axis and angle", "-solid_shape disk -solid_axis 1,0,0 -solid_angle 30", "-solid_axis",
            "-solid_angle"),
     option("tube wider than its ring", "-solid_shape torus -solid_major_radius 0.1",
@@ -168,4 +174,4 @@ MESH = [
     mesh("mesh of another case", None, "top", driver="fsi-stenosis"),
 ]
 
-CASES = {"options": OPTIONS, "mesh": MESH}
+CASES = {"options": OPTIONS, "mesh": MESH, "vessel": vessel_cases.cases(Case)}

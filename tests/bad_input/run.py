@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Bad input must end a run before its first step: exit code 2 and one sentence that names the culprit.
 
-    run.py options|mesh DRIVERS FOLDER MESHES RANKS [MPIEXEC...]
+    run.py options|mesh|vessel DRIVERS FOLDER MESHES RANKS [MPIEXEC...]
 
 Every case is a driver, its arguments and what the sentence must hold; MPIEXEC... runs it on RANKS.
 """

@@ -47,6 +47,13 @@ def check_report(text, mesh):
     area = {name: float(line.split()[2]) for name, line in patches.items()}
     check(abs(area["inlet"] - area["outlet"]) < 1e-9 and 0.6 < area["inlet"] < np.pi / 4,
           f"inlet and outlet have the area of a polygon in the circle: {area}")
+    diameter = {name: float(line.split()[3]) for name, line in patches.items()}
+    check(all(abs(diameter[name] - (4 * area[name] / np.pi)**0.5) < 1e-4 for name in area),
+          f"the diameter is that of a circle of the same area: {diameter}")
+    centre = {name: [float(x) for x in re.search(r"\((.*?)\)", line).group(1).split(",")]
+              for name, line in patches.items()}
+    check(all(np.allclose(centre[name], (x, 0.5, 0.5), atol=0.02)
+              for name, x in (("inlet", 0), ("wall", 2.5), ("outlet", 5))), f"and its centre: {centre}")
     check("(-1, 0, 0)" in patches["inlet"] and "(1, 0, 0)" in patches["outlet"] and
           patches["inlet"].endswith("flat") and patches["wall"].endswith("closed round"),
           "normals point outward, the pipe's wall closes round")
@@ -112,7 +119,7 @@ def main():
     line = reports[0].splitlines()[0]
     check(short.returncode == 0 and line in short.stdout.replace(" on 1 ranks", ""),
           "a driver prints the same line: " + line)
-    check("fsi: warning: mesh " + tets in short.stderr and "aspect ratio" in short.stderr and
+    check("fsi: warning: mesh " + tets in short.stderr and "(limit " in short.stderr and
           "fsi-mesh check" in short.stderr, "and warns: " + short.stderr)
     quiet = run([os.path.join(drivers, "fsi-cavity"), "-mesh", quads, "-output_dir", out, "-time_end",
                  "0.001"])

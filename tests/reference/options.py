@@ -19,7 +19,11 @@ GROUPS = (
     ("Solid", ("solid_",), "The solid at the start, its material and how its deformation is tracked. "
      "Density and viscosity of the solid are those of the fluid where they are not given. "
      "A shape takes its own sizes alone: an option of another shape is refused. "
-     "`-solid_axis x,y,z` gives the axis of revolution in place of `-solid_angle`."),
+     "`-solid_axis x,y,z` gives the axis of revolution in place of `-solid_angle`. "
+     "Of several solids each has a name and all of these options under it: `-solids_NAME_shape`, "
+     "`-solids_NAME_shear_modulus`. In a case file that is a block, "
+     "`solids: {left: {shape: sphere, ...}, right: {...}}`. "
+     "With the shape none the other options of a solid are left aside."),
     ("Time", ("time_",), "The end of the run and the length of its steps. "
      "Of these `fsi-advect` heeds `-time_end` and `-time_courant`."),
     ("Output", ("output_", "sample_", "checkpoint_", "restart", "end_when_empty", "max_wall_time"),
@@ -27,6 +31,9 @@ GROUPS = (
 )
 PATCHES = ("Patches of fsi-vessel", "patches_", "NAME stands for the name of a patch of the mesh. "
            "Every patch needs a type, but for those called wall or symmetry. "
+           "An option of a patch that the mesh does not have, or that its type does not take, is refused. "
+           "Options without a default must be given where the type takes them; a velocity needs "
+           "`-patches_NAME_velocity` or its file. "
            "The meaning begins with the types of patch that take the option. "
            "[The howto](../howto/vessel.md) shows them in use.")
 HEAD = """# Options

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
+#include <limits>
+
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/version.hpp"
 
@@ -42,6 +44,16 @@ TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
   EXPECT_NO_THROW(options.check_unknown());
   EXPECT_NE(options.yaml().find("a: \"2.5\""), std::string::npos);
   FSI_PETSC(PetscOptionsClear(nullptr));
+}
+
+TEST(Options, WithoutAFallbackMustBeGiven) {
+  const auto read = [](Options& options) {
+    const Real given = options.real("capacitance", std::numeric_limits<Real>::quiet_NaN(),
+                                    {.help = "volume per pressure", .unit = ""});
+    EXPECT_EQ(given, 3);
+  };
+  EXPECT_EQ(sentence("-capacitance 3", read), "");
+  EXPECT_EQ(sentence("", read), "option -capacitance is missing: volume per pressure");
 }
 
 TEST(Options, NumbersOfAnEverydaySizeHaveNoExponent) {

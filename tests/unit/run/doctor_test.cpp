@@ -18,7 +18,11 @@ TEST(Patches, OfABox) {
   EXPECT_EQ(right.faces, 6);
   EXPECT_NEAR(right.area, 12, 1e-12);
   EXPECT_EQ(right.normal, (Vec3{1, 0, 0}));
+  EXPECT_NEAR(right.diameter, std::sqrt(48 / 3.14159265358979), 1e-12);
+  EXPECT_NEAR(norm(right.centre - Vec3{2, 1.5, 2}), 0, 1e-12);
   EXPECT_TRUE(right.flat);
+  const Mesh plane = test::read_box({.n = {4, 3, 0}, .length = {2, 3, 1}});
+  EXPECT_NEAR(patch_figures(plane, plane.patch("left")).diameter, 3, 1e-12);
 }
 
 TEST(Patches, ThatAreBentOrOffset) {

@@ -1,11 +1,8 @@
 #include "libfsi/run/patches.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/flow/centre_line.hpp"
@@ -13,38 +10,6 @@
 
 namespace fsi {
 namespace {
-
-/// A file of that text, gone at the end of its scope.
-struct File {
-  explicit File(const std::string& text)
-      : path(std::filesystem::temp_directory_path() /
-             ("fsi_rows_" + std::to_string(getpid()) + ".csv")) {
-    std::ofstream(path) << text;
-  }
-  ~File() { std::filesystem::remove(path); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  std::filesystem::path path;
-};
-
-TEST(Series, JoinsItsRowsByLinesAndComesAgain) {
-  const File file("time,flow_rate\n0,1\n0.5,3\n0.75,2\n");
-  const OfTime once = series(file.path), again = series(file.path, 1);
-  for (const auto& [t, value] :
-       {std::pair{-1.0, 1.0}, {0.25, 2.0}, {0.5, 3.0}, {0.7, 2.2}, {9.0, 2.0}})
-    EXPECT_NEAR(once(t), value, 1e-14) << t;
-  for (const auto& [t, value] :
-       {std::pair{0.25, 2.0}, {3.25, 2.0}, {0.875, 1.5}, {7.875, 1.5}, {2.0, 1.0}, {-0.125, 1.5}})
-    EXPECT_NEAR(again(t), value, 1e-13) << t;
-}
-
-TEST(Series, WhatIsNoTableIsRefused) {
-  EXPECT_THROW(series("there is no such file.csv"), Error);
-  EXPECT_THROW(series(File("0,1\n0.5\n").path), Error);
-  EXPECT_THROW(series(File("0,1\n0,2\n").path), Error);
-  EXPECT_THROW(series(File("time,value\n").path), Error);
-  EXPECT_THROW(series(File("0,1\n2,2\n").path, 1), Error);
-}
 
 // A vessel bent to a quarter of a circle of radius 3.
 TEST(CentreLine, FollowsTheVessel) {

@@ -47,6 +47,37 @@ TEST(Leaving, WhatLeftIsCountedAndNothingStaysBehind) {
     }
 }
 
+// What stays behind of a disc that leaves ends with it once no cell is half full, however much it
+// is; with one such cell it stays.
+TEST(Leaving, AResidueWithoutAHalfFullCellLeavesWithTheRest) {
+  for (const bool one_full : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
+    const FixedVelocity wind{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 1},
+        {.conditions = {
+             {"left", wind}, {"right", Opening{0}}, {"bottom", Slip{}}, {"top", Slip{}}}});
+    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+    solver.put_solid(shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}));
+    Body& body = *solver.body();
+    for (int i = 0; i < 30; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
+    ASSERT_GT(body.volume_out, 0);
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const bool full = one_full && norm(mesh.C[c] - Vec3{1.25, 0.53, 0}) < 0.04;
+      body.alpha[c] *= full ? 1 : 0.45;
+    }
+    mesh.halo.update(body.alpha);
+    const Real left = volume(solver), out = body.volume_out;
+    ASSERT_GT(left, 0.3 * body.filled.volume);
+    body.advect_scratch.solid.fill(0);
+    EXPECT_EQ(body.count_out(), !one_full);
+    EXPECT_EQ(body.gone, one_full ? 0 : 1);
+    EXPECT_NEAR(body.residue, one_full ? 0 : left, 1e-12);
+    EXPECT_NEAR(body.volume_out, one_full ? out : out + left, 1e-12);
+    EXPECT_NEAR(volume(solver), one_full ? left : 0, 1e-12);
+  }
+}
+
 // Half a disc on a plane of symmetry is half of a disc.
 TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
   const auto run = [](Index n, Real height, Real middle, bool half) {

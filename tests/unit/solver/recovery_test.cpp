@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "libfsi/core/error.hpp"
@@ -181,6 +182,25 @@ TEST(Recovery, TakesTheSolidsStepInPartsWhereTheOneBeforeWasTooLong) {
   EXPECT_GT(rate * (long_step + dt) / 2, 0.5) << "more than a step may strain";
   EXPECT_LT(rate * dt, 0.1) << "but the flow's step is short";
   EXPECT_LE(global_max(strain.of_part), 0.5);
+}
+
+TEST(Recovery, NamesTheCrushedCellAndNoSpeckOfSolid) {
+  const Mesh mesh = mesh_of({});
+  constexpr Real never = 100;
+  Drawn run(mesh, never);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (norm(mesh.C[c] - Vec3{0.1, 0.9, 0}) < 0.05) run.solver.body()->alpha[c] = 1e-12;
+  mesh.halo.update(run.solver.body()->alpha);
+  run.solver.body()->set_B(
+      [](const Vec3&) { return SymTensor{std::exp(-10), 0, 0, std::exp(10), 0, 1}; });
+  EXPECT_EQ(run.solver.advance(1e-3), 0);
+  const std::string& said = run.solver.report().failure;
+  EXPECT_NE(said.find("the smallest eigenvalue of B fell below 1e-4"), std::string::npos) << said;
+  Vec3 x;
+  const std::size_t at = said.find(" at (");
+  ASSERT_NE(at, std::string::npos) << said;
+  ASSERT_EQ(std::sscanf(said.c_str() + at, " at (%lf, %lf", &x.x, &x.y), 2) << said;
+  EXPECT_LT(norm(x - Vec3{0.5, 0.5, 0}), 0.25) << said;
 }
 
 TEST(Recovery, NamesASolidThatIsCarriedTooFar) {

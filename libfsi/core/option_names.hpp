@@ -1,0 +1,21 @@
+#pragma once
+// Names of options: whose they are, and which one was meant.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// Options that PETSc and MPI read as they start or end: logging, memory, debugging.
+bool of_petsc(const std::string& name);
+
+/// Options that a solver may read later: those of the linear systems (p_, u_) and of what they
+/// hold.
+bool of_solver(const std::string& name);
+
+/// The word that stands nearest to a name, by no more edits than `most`; "" where there is none.
+std::string nearest(const std::string& name, const std::vector<std::string>& valid,
+                    std::size_t most = std::string::npos);
+
+}  // namespace fsi

@@ -1,0 +1,80 @@
+#include "libfsi/run/watch.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
+
+namespace fsi {
+namespace {
+
+void say(const char* kind, const std::string& text) {
+  if (rank() == 0) std::fprintf(stderr, "fsi: %s: %s\n", kind, text.c_str());
+}
+
+std::string name_of(const Body& body) { return body.name.empty() ? "solid" : "solid " + body.name; }
+
+std::string table_of(const Body& body) {
+  return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
+}
+
+}  // namespace
+
+std::string Watch::energy(Real made, const State& state) {
+  constexpr Real odd = 0.1, wrong = 0.5;
+  constexpr int start = 20;
+  if (state.step < start || made < odd) return "";
+  const std::string text =
+      print("at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of flow.csv)",
+            state.t, 100 * made) +
+      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity";
+  if (!told_of_energy_ && made <= wrong) say("warning", text);
+  told_of_energy_ = true;
+  return made > wrong ? text : "";
+}
+
+void Watch::leaving(const Solver& solver) {
+  const Real t = solver.state().t;
+  for (std::size_t i = 0; i < said_.size(); ++i) {
+    const Body& body = solver.bodies()[i];
+    if (body.volume_out <= 0) continue;
+    const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
+    said_[i].leaving = true, said_[i].left = body.gone != 0;
+    if (begins)
+      say("notice", name_of(body) +
+                        print(" leaves the mesh from t = %g on: column volume_out of ", t) +
+                        table_of(body));
+    if (ends)
+      say("notice",
+          "the last of the " + name_of(body) +
+              print(" left the mesh at t = %g; what was left of it in no cell half full, a "
+                    "volume of %.3g or %.2g %% of the solid, was taken out and is part "
+                    "of volume_out",
+                    t, body.residue, 100 * body.residue / body.filled.volume));
+  }
+}
+
+void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) {
+  constexpr Real least = 0.05;  // doc/verification/stability.md
+  const Body& body = solver.bodies()[i];
+  const std::string at = print("at t = %.4g ", solver.state().t);
+  Said& said = said_[i];
+  if (said.pieces < 0) said.pieces = std::max(sound.pieces, 1);
+  if (sound.eigenvalue_min < least && !said.strained) {
+    said.strained = true;
+    say("warning", at + "the smallest eigenvalue of B in the " + name_of(body) +
+                       print(" is %.3g, below %g", sound.eigenvalue_min, least) +
+                       " (column min_eig_B of " + table_of(body) +
+                       "): the mesh is too coarse for so much strain, or the solid too soft");
+  }
+  if (sound.pieces > said.pieces && !said.torn) {
+    said.torn = true;
+    say("warning", at + "the " + name_of(body) + print(" is in %d pieces", sound.pieces) +
+                       " of at least 1 % of its volume (column pieces of " + table_of(body) +
+                       "): the mesh is too coarse for it, or the solid too soft; what follows is " +
+                       "not to be believed");
+  }
+}
+
+}  // namespace fsi
