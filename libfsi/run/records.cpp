@@ -25,9 +25,10 @@ const Patch* find(const Mesh& mesh, const std::string& name) {
 
 Real kinetic_energy(const Solver& solver) {
   const Mesh& mesh = solver.mesh();
+  const CellField<Real>* rho = solver.density();
   Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c)
-    sum.add(solver.physics().rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
+    sum.add((rho ? (*rho)[c] : solver.physics().rho) / 2 * mesh.V[c] * norm2(solver.state().u[c]));
   return sum.total();
 }
 

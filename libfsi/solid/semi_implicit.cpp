@@ -64,7 +64,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
-    const Real inertia = inertia_[f] * solid.rho * d * d / solid.dt;
+    const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
     // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
     // at the surface a part alpha_f of the way is the solid's.
     const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;

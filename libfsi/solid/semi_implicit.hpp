@@ -23,6 +23,7 @@ struct ElasticTerms {
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
   const CellField<Real>& fraction;  ///< alpha; owned and halo
   Real G, rho, mu_s, dt;
+  Real rho_least;          ///< of the solid and the fluid beside it
   bool kink = false;       ///< the mean of L allows for a kink of u at the surface
   bool one_sided = false;  ///< L is that of the cell's own side of the surface (InterfaceGradient)
   /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.

@@ -30,6 +30,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       name(solid.name),
       G(solid.G),
       mu(solid.mu),
+      rho(solid.rho > 0 ? solid.rho : physics.rho),
       alpha(mesh),
       alpha_mid(mesh),
       B(mesh),
@@ -56,8 +57,9 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
     interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
   if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
-  if (solid.acceleration != Vec3{})
-    body_force.emplace(mesh, weights, physics.rho * solid.acceleration);
+  const Vec3 weight = rho * solid.acceleration + (rho - physics.rho) * physics.gravity;
+  if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
+  if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
   alpha_mid.assign(alpha);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
@@ -103,6 +105,7 @@ void Body::update_B() {
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }
+  if (alpha_line) vof::line_fraction(*alpha_line, alpha, interface, weights, mesh, band.faces());
   mesh.halo.update(B, band.listed());
   mesh.halo.update(lambda, band.listed());
 }
@@ -161,7 +164,7 @@ void Body::list(io::Snapshot& snapshot) {
 }
 
 void Body::resume() {
-  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
+  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   update_B();
 }

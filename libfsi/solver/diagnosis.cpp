@@ -100,7 +100,7 @@ std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) con
   };
   const auto courant = [&](Index c) { return body.dt * flow::courant_rate(state_.phi, mesh_, c); };
   const auto waves = [&](Index c) {
-    return dt / solid::elastic_time(body.lambda, body.G, physics_.rho, mesh_, {&c, 1});
+    return dt / solid::elastic_time(body.lambda, body.G, body.rho, mesh_, {&c, 1});
   };
   const auto crushed = [&](Index c) {
     return 1 / std::max(eigen(body.B[c]).value[0], std::numeric_limits<Real>::min());

@@ -63,8 +63,10 @@ void Solver::put_solid(const Solid& solid) {
     modes_.mu_varies = true;
     // The transposed viscous term is explicit: backward Euler where it is large.
     if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
-    momentum_.bound_explicit_viscosity(std::max(body.mu, physics_.mu_f));
+    const Real light = physics_.rho / std::min(body.rho, physics_.rho);
+    momentum_.bound_explicit_viscosity(light * std::max(body.mu, physics_.mu_f));
   }
+  if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
   if (body.two_viscosities) {
     if (!stiff_) stiff_.emplace(mesh_);
     momentum_.hold_old();
@@ -75,6 +77,7 @@ void Solver::put_solid(const Solid& solid) {
     if (!mixed_mu_) mixed_mu_.emplace(mesh_);
   }
   mix_viscosity(mu_);
+  mix_density();
   hold_backup();
 }
 
@@ -93,7 +96,7 @@ void Solver::advance_interface(Body& body, const FaceField<Real>& phi, Real t) {
     body.advected.add(vof::advect(body.alpha, body.interface, phi, state_.u, body.dt / parts, mesh_,
                                   body.advect_scratch));
     if (leaves_) body.count_out();
-    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch);
+    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
   }
   for (Index c = 0; c < mesh_.n_cells; ++c)
     body.alpha_mid[c] = (body.alpha_mid[c] + body.alpha[c]) / 2;
@@ -113,7 +116,7 @@ void Solver::separate_bodies() {
     }
   if (!separation_->apply(alphas_, shared_)) return;
   for (Body& body : bodies_)
-    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch);
+    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
 }
 
 void Solver::advect_pressure_jump(CellField<Real>& p, const Body& body) {
@@ -174,7 +177,7 @@ void Solver::transport_elastic(Body& body, CellField<Tensor>& L, const State& st
                                      .weights = weights_,
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
-                                     .wave_speed = std::sqrt(body.G / physics_.rho),
+                                     .wave_speed = std::sqrt(body.G / body.rho),
                                      .recovery = body.G / body.mu};
   std::visit(
       [&](auto& k) {
@@ -236,7 +239,8 @@ void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
                    weights_, stencil, body.band);
   }
   if (body.body_force)
-    body.body_force->apply(force, rhie_chow_source_, body.alpha_f, stencil, body.band);
+    body.body_force->apply(force, rhie_chow_source_,
+                           body.alpha_line ? *body.alpha_line : body.alpha_f, stencil, body.band);
 }
 
 void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt) {
@@ -265,9 +269,10 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, B
       .L = L_,
       .fraction = body.alpha,
       .G = body.G,
-      .rho = physics_.rho,
+      .rho = body.rho,
       .mu_s = map ? 0 : body.mu,
       .dt = dt,
+      .rho_least = std::min(body.rho, physics_.rho),
       .kink = !map,
       .one_sided = body.interface_gradient.has_value(),
       .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr};

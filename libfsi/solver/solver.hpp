@@ -13,6 +13,7 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/density.hpp"
 #include "libfsi/flow/forcing.hpp"
 #include "libfsi/flow/loads.hpp"
 #include "libfsi/flow/momentum.hpp"
@@ -120,6 +121,8 @@ class Solver {
   /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
   Real overlap() const { return separation_ ? separation_->overlap() : 0; }
   const Physics& physics() const { return physics_; }
+  /// Of the cells, by their fractions; none where all solids are as dense as the fluid.
+  const CellField<Real>* density() const { return heavy_ ? &heavy_->density.of_cell() : nullptr; }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
@@ -148,14 +151,18 @@ class Solver {
   void clear_forces();
   void transport_elastic(Body& body, CellField<Tensor>& L, const State& state);
   void mix_viscosity(FaceField<Real>& mu);
+  void mix_density();
   void add_elastic_force(CellField<Vec3>& force, Body& body);
   void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt);
   void add_body_force(CellField<Vec3>& force, Real t);
+  void balance_weight(State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
   void project(State& state, Real dt);
   void hold_mean_velocity(State& state, Real dt);
   void check(const State& state);
+  /// phi_1 of the mean velocity and the answers of loads are those of the density.
+  void renew_responses();
   /// What one body adds to them.
   void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body, Real dt);
   /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
@@ -217,8 +224,8 @@ class Solver {
   struct Calls {
     explicit Calls(Profile& profile);
     int advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
-        set_velocity_gradient, transport_elastic, mix_viscosity, add_elastic_force,
-        add_semi_implicit, add_body_force, predict_momentum, predict_flux, project,
+        set_velocity_gradient, transport_elastic, mix_viscosity, mix_density, add_elastic_force,
+        add_semi_implicit, add_body_force, balance_weight, predict_momentum, predict_flux, project,
         hold_mean_velocity, check;
   };
 
@@ -246,8 +253,16 @@ class Solver {
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
   Modes modes_;
-  std::optional<FaceField<Real>> stiff_;       // kappa_ and what two viscosities add to it
-  std::optional<CellField<Real>> mixed_mu_;    // of the cells, where there are several solids
+  std::optional<FaceField<Real>> stiff_;     // kappa_ and what two viscosities add to it
+  std::optional<CellField<Real>> mixed_mu_;  // of the cells, where there are several solids
+  /// The density and what it needs, where some solid's is not the fluid's.
+  struct Heavy {
+    Heavy(const Mesh& mesh, const FaceWeights& weights, Real rho)
+        : density(mesh, weights, rho), force(mesh) {}
+    flow::Density density;
+    CellField<Vec3> force;  // all that pushes a cell, in a step
+  };
+  std::optional<Heavy> heavy_;
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<CellField<Real>*> alphas_;       // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
