@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 
 import matplotlib
 
@@ -30,6 +31,12 @@ def chosen(items, count):
     return [items[i] for i in np.unique(np.linspace(0, len(items) - 1, count).round().astype(int))]
 
 
+def apart(points):
+    """Places of points of which no two are nearly the same: cells above each other have one."""
+    spacing = np.sqrt(np.prod(np.ptp(points, axis=0)) / len(points))
+    return np.sort(np.unique((points / (0.05 * spacing)).round(), axis=0, return_index=True)[1])
+
+
 class Slice:
     """A plane z = const through a run (all of it in 2-D), as triangles over cell centres."""
 
@@ -43,6 +50,7 @@ class Slice:
             bottom, top = snapshot.extent(2)
             # The half-open test takes one layer where the plane lies between two.
             cells = np.flatnonzero((bottom <= self.level) & (self.level < top))
+        cells = cells[apart(centres[cells, :2])]
         self.snapshot, self.cells = snapshot, cells
         x, y = centres[cells, 0], centres[cells, 1]
         self.triangles = Triangulation(x, y)
@@ -50,7 +58,14 @@ class Slice:
         side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
         (ax, ay), (bx, by) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
         flat = abs(ax * by - ay * bx) < 1e-6 * side**2  # on the edge of an even mesh, by rounding
-        self.triangles.set_mask((side > 6 * np.median(side)) | flat)
+        far = side > 6 * np.median(side)
+        for mask in (far | flat, far):
+            self.triangles.set_mask(mask)
+            try:
+                self.triangles.get_trifinder()
+                break
+            except RuntimeError:  # what is left does not fit together
+                continue
         points = snapshot.points[:, :2]
         self.low, self.high = points.min(axis=0), points.max(axis=0)
 
@@ -255,10 +270,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", help="the output directory of a run")
     folder = parser.parse_args().folder
-    tables = {name: table(os.path.join(folder, name + ".csv")) for name in ("solid", "flow")}
+    # Of several solids the first one is drawn over time.
+    names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
+    tables = {name: table(os.path.join(folder, name + ".csv")) for name in [*names, "flow"]}
+    tables.setdefault("solid", tables[names[0]] if names else {})
     volume = tables["solid"].get("volume")
     if volume is not None and volume[0] != 0:
-        tables["solid"]["drift"] = volume / volume[0] - 1
+        left = tables["solid"].get("volume_out", 0)
+        tables["solid"]["drift"] = (volume + left) / volume[0] - 1
     print_numbers(folder, tables)
     items = series(folder)
     pictures = [draw_series(folder, tables)]

@@ -28,6 +28,9 @@ class Snapshot:
             points, connectivity = np.asarray(root["Points"]), np.asarray(root["Connectivity"])
             offsets, self.types = np.asarray(root["Offsets"]), np.asarray(root["Types"])
             self.data = {name: np.asarray(root["CellData"][name]) for name in root["CellData"]}
+        bodies = [value for name, value in self.data.items() if name.startswith("alpha_")]
+        if bodies:  # several solids: all of them together
+            self.data["alpha"] = np.sum(bodies, axis=0)
         # The parts follow each other; the numbers in a part start at zero.
         first_point = np.concatenate([[0], np.cumsum(sizes[0])])
         first_id = np.concatenate([[0], np.cumsum(sizes[2])])

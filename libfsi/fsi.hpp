@@ -22,4 +22,5 @@
 #include "libfsi/run/patches.hpp"
 #include "libfsi/run/prescribed_advection.hpp"
 #include "libfsi/solid/law/laws.hpp"
+#include "libfsi/solver/solid_step.hpp"
 #include "libfsi/solver/solver.hpp"

@@ -7,13 +7,6 @@
 #include "libfsi/shapes/shapes.hpp"
 
 namespace fsi::analysis {
-namespace {
-
-SymTensor square(const Vec3& r) {
-  return {r.x * r.x, r.x * r.y, r.x * r.z, r.y * r.y, r.y * r.z, r.z * r.z};
-}
-
-}  // namespace
 
 Orientation orientation(const Surface& surface, const Vec3& centroid, const Vec3& previous) {
   std::array<Sum, 7> sums;

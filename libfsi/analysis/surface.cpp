@@ -6,6 +6,7 @@
 #include "libfsi/analysis/motion.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/geometry/simplex.hpp"
+#include "libfsi/operators/least_squares.hpp"
 
 namespace fsi::analysis {
 namespace {
@@ -25,8 +26,7 @@ struct Stencil {
   void add(const Vec3& arm, Real value) {
     least = std::min(least, value), most = std::max(most, value);
     count += 1, r += arm, alpha += value, r_alpha += value * arm;
-    rr +=
-        {arm.x * arm.x, arm.x * arm.y, arm.x * arm.z, arm.y * arm.y, arm.y * arm.z, arm.z * arm.z};
+    rr += square(arm);
   }
 
   /// Weights w = 1 + lambda . r with sum w r = 0: exact for linear functions   [Holmes89]
@@ -44,16 +44,11 @@ struct Stencil {
  private:
   /// -(sum r r)^-1 sum r, zero where the matrix is close to singular.
   Vec3 solve(int dim) const {
-    SymTensor m = rr;
-    const Real mean = trace(m) / dim;
-    if (dim == 2) m.zz = mean;
-    const Real d = det(m);
     constexpr Real flat = 1e-6;  // of the determinant of a round cloud of cells
-    if (!(d > flat * mean * mean * mean)) return {};
-    const SymTensor cofactor{m.yy * m.zz - m.yz * m.yz, m.xz * m.yz - m.xy * m.zz,
-                             m.xy * m.yz - m.xz * m.yy, m.xx * m.zz - m.xz * m.xz,
-                             m.xy * m.xz - m.xx * m.yz, m.xx * m.yy - m.xy * m.xy};
-    return (-1 / d) * dot(cofactor, r);
+    if (!tells(rr, dim, flat)) return {};
+    SymTensor m = rr;
+    if (dim == 2) m.zz = trace(m) / 2;
+    return (-1 / det(m)) * dot(adjugate(m), r);
   }
 };
 

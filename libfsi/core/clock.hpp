@@ -17,6 +17,9 @@ struct Limit {
   std::string name = "none";
 };
 
+/// After a first or a rejected step the next ones grow by a tenth each.
+inline constexpr Real step_growth = 1.1;
+
 /// The smaller of two limits.
 inline Limit tighter(const Limit& a, const Limit& b) { return b.dt < a.dt ? b : a; }
 

@@ -197,7 +197,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Options::Options(std::string program, std::string purpose) : program_(std::move(program)) {
+Options::Options(std::string program, const std::string& purpose) : program_(std::move(program)) {
   PetscBool help = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, "-help", &help));
   help_ = help == PETSC_TRUE;
@@ -279,7 +279,7 @@ std::string Options::text_or_file(const std::string& name, const std::string& fa
 
 std::string Options::choice(const std::string& name, const std::string& fallback,
                             const std::vector<std::string>& valid, const std::string& help) {
-  const std::string value = raw(name).value_or(fallback);
+  std::string value = raw(name).value_or(fallback);
   if (std::find(valid.begin(), valid.end(), value) == valid.end())
     throw Error(ErrorKind::input, "option -" + name + ": \"" + value +
                                       "\" is not valid; nearest is " + nearest(value, valid) +
@@ -307,7 +307,7 @@ Vec3 Options::vec3(const std::string& name, const Vec3& fallback, const Spec& sp
 
 std::vector<std::string> Options::list(const std::string& name, const std::string& help) {
   const auto text = raw(name);
-  const std::vector<std::string> items = text ? split(*text) : std::vector<std::string>{};
+  std::vector<std::string> items = text ? split(*text) : std::vector<std::string>{};
   require(!text || !items.empty(), "option -" + name + " needs a value: " + help);
   for (const std::string& item : items)
     require(!item.empty(), "option -" + name + ": \"" + *text + "\" has an empty item");

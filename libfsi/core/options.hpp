@@ -27,7 +27,7 @@ struct Spec {
 class Options {
  public:
   /// `program` and `purpose` head the -help text.
-  Options(std::string program, std::string purpose);
+  Options(std::string program, const std::string& purpose);
 
   Real real(const std::string& name, Real fallback, const Spec& spec);
   int integer(const std::string& name, int fallback, const Spec& spec);

@@ -112,11 +112,33 @@ constexpr Vec3 dot(const SymTensor& t, const Vec3& a) {
   return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.xy * a.x + t.yy * a.y + t.yz * a.z,
           t.xz * a.x + t.yz * a.y + t.zz * a.z};
 }
+/// (a b)_ij = a_ik b_kj.
+constexpr Tensor dot(const Tensor& a, const SymTensor& b) {
+  const Vec3 x = dot(b, Vec3{a.xx, a.xy, a.xz}), y = dot(b, Vec3{a.yx, a.yy, a.yz}),
+             z = dot(b, Vec3{a.zx, a.zy, a.zz});  // rows
+  return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+}
+/// (a a)_ij = a_i a_j.
+constexpr SymTensor square(const Vec3& a) {
+  return {a.x * a.x, a.x * a.y, a.x * a.z, a.y * a.y, a.y * a.z, a.z * a.z};
+}
+/// (a b + b a)_ij = a_i b_j + b_i a_j.
+constexpr SymTensor both_ways(const Vec3& a, const Vec3& b) {
+  return {2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
+          2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
+}
 constexpr Real trace(const SymTensor& t) { return t.xx + t.yy + t.zz; }
 constexpr Real det(const SymTensor& t) {
   return t.xx * (t.yy * t.zz - t.yz * t.yz) - t.xy * (t.xy * t.zz - t.yz * t.xz) +
          t.xz * (t.xy * t.yz - t.yy * t.xz);
 }
+/// det(t) times the inverse.
+constexpr SymTensor adjugate(const SymTensor& t) {
+  return {t.yy * t.zz - t.yz * t.yz, t.xz * t.yz - t.xy * t.zz, t.xy * t.yz - t.xz * t.yy,
+          t.xx * t.zz - t.xz * t.xz, t.xz * t.xy - t.xx * t.yz, t.xx * t.yy - t.xy * t.xy};
+}
+/// By cofactors; det not zero.
+constexpr SymTensor inverse(const SymTensor& t) { return (1 / det(t)) * adjugate(t); }
 /// Deviator a - (tr a / 3) I.
 constexpr SymTensor dev(SymTensor t) {
   const Real m = trace(t) / 3;

@@ -1,24 +1,36 @@
 #include "libfsi/field/band.hpp"
 
+#include <algorithm>
+
 namespace fsi {
 
-Band::Band(const Mesh& mesh)
-    : mesh_(mesh),
-      cell_stamp_(static_cast<std::size_t>(mesh.n_owned), 0),
-      face_stamp_(static_cast<std::size_t>(mesh.n_faces), 0),
-      listed_(mesh) {
+Csr cells_around_halo(const Mesh& mesh) {
   std::vector<std::vector<Index>> around(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned));
   for (Index c = 0; c < mesh.n_owned; ++c)
     for (const Index n : mesh.cell_neighbours[c])
       if (n >= mesh.n_owned) around[n - mesh.n_owned].push_back(c);
+  Csr rows;
   for (const auto& row : around) {
-    halo_neighbours_.index.insert(halo_neighbours_.index.end(), row.begin(), row.end());
-    halo_neighbours_.offset.push_back(static_cast<Index>(halo_neighbours_.index.size()));
+    rows.index.insert(rows.index.end(), row.begin(), row.end());
+    rows.offset.push_back(static_cast<Index>(rows.index.size()));
   }
-  for (Index f = 0; f < mesh.n_internal; ++f)
-    if (mesh.owner[f] >= mesh.n_owned || mesh.neighbour[f] >= mesh.n_owned)
-      between_ranks_.push_back(f);
+  return rows;
 }
+
+std::vector<Index> faces_between_ranks(const Mesh& mesh) {
+  std::vector<Index> faces;
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    if (std::max(mesh.owner[f], mesh.neighbour[f]) >= mesh.n_owned) faces.push_back(f);
+  return faces;
+}
+
+Band::Band(const Mesh& mesh)
+    : mesh_(mesh),
+      halo_neighbours_(cells_around_halo(mesh)),
+      between_ranks_(faces_between_ranks(mesh)),
+      cell_stamp_(static_cast<std::size_t>(mesh.n_owned), 0),
+      face_stamp_(static_cast<std::size_t>(mesh.n_faces), 0),
+      listed_(mesh) {}
 
 void Band::rebuild(const CellField<Real>& q, Real threshold) {
   for (const Index c : cells_) listed_[c] = 0;

@@ -8,6 +8,12 @@
 
 namespace fsi {
 
+/// Row i: owned cells that share a vertex with halo cell n_owned + i, ascending.
+Csr cells_around_halo(const Mesh& mesh);
+
+/// Internal faces with a halo cell, ascending.
+std::vector<Index> faces_between_ranks(const Mesh& mesh);
+
 /// Owned cells of a set, and those that share a vertex with one; the faces of both. Rebuilt each
 /// step from lists that keep their memory.
 class Band {

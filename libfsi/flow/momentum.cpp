@@ -63,7 +63,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       if (std::holds_alternative<Slip>(conditions[i]))
         implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
-  if (weights.uneven) old_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+  if (weights.uneven) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
   set_theta(1);
 }
 
@@ -126,7 +126,7 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
 
 void Momentum::hold_old() {
   whole_past_ = true;
-  if (!old_) old_.emplace(CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_));
+  if (!old_) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
 }
 
 // Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,

@@ -37,11 +37,9 @@ void add_fan(Moments& m, int dim, std::span<const Vec3> x) {
 
 Moments shifted(const Moments& m, const Vec3& shift) {
   Moments out = m;
-  const Vec3 &a = m.first, &b = shift;
   out.first += m.volume * shift;
   out.second += m.volume * square(shift);
-  out.second += SymTensor{2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
-                          2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
+  out.second += both_ways(m.first, shift);
   return out;
 }
 

@@ -12,11 +12,6 @@ struct Moments {
   SymTensor second;
 };
 
-/// x x.
-constexpr SymTensor square(const Vec3& x) {
-  return {x.x * x.x, x.x * x.y, x.x * x.z, x.y * x.y, x.y * x.z, x.z * x.z};
-}
-
 /// The same body with the origin of the coordinates moved to -shift: every x becomes x + shift.
 Moments shifted(const Moments& m, const Vec3& shift);
 

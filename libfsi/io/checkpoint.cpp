@@ -260,8 +260,10 @@ void Checkpoint::read(const Snapshot& snapshot) {
   damaged = broadcast(damaged);
   if (sound.empty() && !damaged.empty())
     throw Error(ErrorKind::io, "all checkpoints are damaged: " + damaged);
-  require(!sound.empty(), "there is no checkpoint in \"" + directory_ +
-                              "\" to go on from; leave out -restart, or choose its -output_dir");
+  require(!sound.empty(),
+          "there is no checkpoint in \"" + directory_ +
+              "\" to go on from; leave out -restart, or choose its -output_dir (a run that "
+              "reaches its end keeps one only with -checkpoint_interval)");
   load(sound, snapshot);
   file_ = sound;
 }

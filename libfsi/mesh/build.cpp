@@ -134,7 +134,7 @@ void fill_cell_neighbours(const CellList& list, Mesh& mesh) {
     GlobalIndex id;
     Index cell;
     std::int8_t shift;
-    auto operator<=>(const Seen&) const = default;
+    auto operator<=>(const Seen&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Seen> seen;
   Csr& rows = mesh.cell_neighbours;

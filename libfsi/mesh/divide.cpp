@@ -3,7 +3,6 @@
 #include <metis.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -14,93 +13,108 @@ namespace {
 static_assert(sizeof(idx_t) == sizeof(std::int32_t));
 using Ints = std::vector<std::int32_t>;
 
-/// A graph whose vertices are rows of cells.
-struct Rows {
+/// A graph whose vertices are columns of cells.
+struct Columns {
   Graph graph;
-  Ints cells;   // [rows] cells of each
-  Ints row_of;  // [cells]
+  Ints ties;   // beside neighbours: faces on the way across
+  Ints cells;  // [columns] cells of each
 };
 
-/// The head of i's class; halves the way to it.
-std::int32_t head_of(Ints& above, std::int32_t i) {
-  while (above[i] != i) i = above[i] = above[above[i]];
-  return i;
+/// Numbers the columns from zero in the order of their first cells; how many there are.
+std::int32_t number(Ints& column_of) {
+  Ints distinct(column_of);
+  std::ranges::sort(distinct);
+  const auto twice = std::ranges::unique(distinct);
+  distinct.erase(twice.begin(), twice.end());
+  Ints place(distinct.size(), -1);
+  std::int32_t count = 0;
+  for (std::int32_t& column : column_of) {
+    const auto at = std::ranges::lower_bound(distinct, column) - distinct.begin();
+    if (place[at] < 0) place[at] = count++;
+    column = place[at];
+  }
+  return count;
 }
 
-/// The row of each cell: cells tied along the path rather than across it are one row.
-Ints rows_of(const Graph& graph, std::int32_t& count) {
-  constexpr int along = slender + 1;  // the way and the path meet at 45 degrees
-  Ints above(static_cast<std::size_t>(graph.cells()));
-  std::iota(above.begin(), above.end(), 0);
-  for (std::int32_t c = 0; c < graph.cells(); ++c) {
-    for (std::int32_t i = graph.start[c]; i < graph.start[c + 1]; ++i) {
-      if (graph.ties[i] <= along) continue;
-      const std::int32_t a = head_of(above, c), b = head_of(above, graph.neighbours[i]);
-      above[std::max(a, b)] = std::min(a, b);
-    }
+/// The cells of each column: order[begin[k]] .. order[begin[k + 1]].
+struct Members {
+  Ints begin, order;
+};
+
+Members members_of(const Ints& column_of, std::int32_t columns) {
+  Members members{Ints(static_cast<std::size_t>(columns) + 1, 0), Ints(column_of.size())};
+  for (const std::int32_t k : column_of) ++members.begin[k + 1];
+  std::partial_sum(members.begin.begin(), members.begin.end(), members.begin.begin());
+  Ints next(members.begin.begin(), members.begin.end() - 1);
+  for (std::size_t c = 0; c < column_of.size(); ++c) {
+    members.order[next[column_of[c]]++] = static_cast<std::int32_t>(c);
   }
-  Ints row(above.size(), -1);
-  count = 0;
-  for (std::int32_t c = 0; c < graph.cells(); ++c) {
-    const std::int32_t head = head_of(above, c);
-    if (head == c) row[c] = count++;
-    row[c] = row[head];
-  }
-  return row;
+  return members;
 }
 
-/// The graph of rows: two are as strongly tied as all their cells together.
-Rows gathered(const Graph& graph, Ints row_of, std::int32_t rows) {
-  Rows coarse;
-  coarse.cells.assign(rows, 0);
-  if (!graph.load.empty()) coarse.graph.load.assign(rows, 0);
-  std::vector<std::array<std::int32_t, 3>> ties;  // row, other row, weight
-  for (std::int32_t c = 0; c < graph.cells(); ++c) {
-    const std::int32_t row = row_of[c];
-    ++coarse.cells[row];
-    if (!graph.load.empty()) coarse.graph.load[row] += graph.load[c];
-    for (std::int32_t i = graph.start[c]; i < graph.start[c + 1]; ++i) {
-      const std::int32_t other = row_of[graph.neighbours[i]];
-      if (other != row) ties.push_back({row, other, 1});
+/// The graph of columns: two are as strongly tied as they have faces in common.
+Columns gathered(const Graph& graph, const Ints& column_of, std::int32_t columns) {
+  const auto [begin, order] = members_of(column_of, columns);
+  Columns all;
+  Ints beyond;  // the column across each face of this one
+  for (std::int32_t k = 0; k < columns; ++k) {
+    beyond.clear();
+    std::int32_t load = 0;
+    for (std::int32_t m = begin[k]; m < begin[k + 1]; ++m) {
+      const std::int32_t c = order[m];
+      if (!graph.load.empty()) load += graph.load[c];
+      for (std::int32_t i = graph.start[c]; i < graph.start[c + 1]; ++i) {
+        const std::int32_t other = column_of[graph.neighbours[i]];
+        if (other != k) beyond.push_back(other);
+      }
     }
-  }
-  std::ranges::sort(ties);
-  Graph& g = coarse.graph;
-  for (std::size_t i = 0; i < ties.size(); ++i) {
-    const auto [row, other, weight] = ties[i];
-    if (i > 0 && ties[i - 1][0] == row && ties[i - 1][1] == other) {
-      g.ties.back() += weight;
-      continue;
+    std::ranges::sort(beyond);
+    for (std::size_t i = 0; i < beyond.size(); ++i) {
+      if (i > 0 && beyond[i] == beyond[i - 1]) {
+        ++all.ties.back();
+        continue;
+      }
+      all.graph.neighbours.push_back(beyond[i]), all.ties.push_back(1);
     }
-    while (g.cells() < row) g.start.push_back(static_cast<std::int32_t>(g.neighbours.size()));
-    g.neighbours.push_back(other), g.ties.push_back(weight);
+    all.graph.start.push_back(static_cast<std::int32_t>(all.graph.neighbours.size()));
+    if (!graph.load.empty()) all.graph.load.push_back(load);
+    all.cells.push_back(begin[k + 1] - begin[k]);
   }
-  while (g.cells() < rows) g.start.push_back(static_cast<std::int32_t>(g.neighbours.size()));
-  coarse.row_of = std::move(row_of);
-  return coarse;
+  return all;
 }
 
-/// The vertices' parts by METIS: recursive bisection or k-way. cells: how many each vertex stands
-/// for; empty: one.
-Ints parts_of(const Graph& graph, const Ints& cells, int parts, bool recursive) {
+/// How METIS goes about it.
+struct Method {
+  bool recursive = false;  // bisection, or k-way
+  int tries = 1;           // divisions of which the one with the least cut counts
+  int passes = 10;         // of the refinement
+  int excess = 0;          // of a part over its share that is allowed, 1 / 1000; 0: METIS decides
+};
+
+/// The vertices' parts by METIS. cells: how many each vertex stands for; ties: weights beside
+/// neighbours; empty: one each.
+Ints parts_of(const Graph& graph, const Ints& cells, const Ints& ties, int parts,
+              const Method& method) {
   idx_t options[METIS_NOPTIONS], n = graph.cells(), n_parts = parts, cut = 0;
   idx_t constraints = graph.load.empty() ? 1 : 2;
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;  // the same parts every time
+  options[METIS_OPTION_NCUTS] = method.tries, options[METIS_OPTION_NITER] = method.passes;
+  if (method.excess > 0) options[METIS_OPTION_UFACTOR] = method.excess;
   Ints weights;
   for (std::int32_t v = 0; v < n && (constraints == 2 || !cells.empty()); ++v) {
     weights.push_back(cells.empty() ? 1 : cells[v]);
     if (constraints == 2) weights.push_back(graph.load[v]);
   }
   Ints result(static_cast<std::size_t>(n));
-  const auto method = recursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const auto call = method.recursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   // METIS asks for writable arrays and writes to none of them.
   const auto array = [](const Ints& list) {
     return list.empty() ? nullptr : const_cast<idx_t*>(list.data());
   };
   const int code =
-      method(&n, &constraints, array(graph.start), array(graph.neighbours), array(weights), nullptr,
-             array(graph.ties), &n_parts, nullptr, nullptr, options, &cut, result.data());
+      call(&n, &constraints, array(graph.start), array(graph.neighbours), array(weights), nullptr,
+           array(ties), &n_parts, nullptr, nullptr, options, &cut, result.data());
   return code == METIS_OK ? result : Ints{};
 }
 
@@ -111,56 +125,64 @@ double excess(const Ints& held) {
   return total > 0 ? most * static_cast<double>(held.size()) / total : 1;
 }
 
-/// What a division costs in balance: the excess of cells and of load, as far as they matter. Rows
-/// may be less even than cells, for their balance lasts.
-double cost(const Graph& graph, const Ints& part, int parts, bool in_rows) {
-  const double good_cells = in_rows ? 1.05 : 1.03, good_load = in_rows ? 1.2 : 1.1;
+/// The excess of the parts' cells and of their load.
+struct Excess {
+  double cells, load;
+};
+
+Excess excess_of(const Graph& graph, const Ints& part, int parts) {
   Ints cells(static_cast<std::size_t>(parts), 0), load(cells);
   for (std::int32_t c = 0; c < graph.cells(); ++c) {
     ++cells[part[c]];
     if (!graph.load.empty()) load[part[c]] += graph.load[c];
   }
-  return std::max(0.0, excess(cells) - good_cells) + std::max(0.0, excess(load) - good_load) / 4;
+  return {excess(cells), excess(load)};
+}
+
+/// Division by whole columns; empty where they are too short or too few for even parts.
+Ints divide_columns(const Graph& graph, int parts) {
+  constexpr std::int32_t cells_a_column = 4, columns_a_part = 8;
+  constexpr double even = 1.1;
+  Ints part(graph.column);
+  const std::int32_t columns = number(part);
+  if (columns > graph.cells() / cells_a_column || columns < columns_a_part * parts) return {};
+  const Columns all = gathered(graph, part, columns);
+  // The graph is small: METIS can take its time for a small halo.
+  const Ints of_columns = parts_of(all.graph, all.cells, all.ties, parts, {true, 20, 20, 5});
+  if (of_columns.empty()) return {};
+  for (std::int32_t& p : part) p = of_columns[p];
+  return excess_of(graph, part, parts).cells < even ? part : Ints{};
+}
+
+/// Division cell by cell, by the more even of METIS's methods.
+Ints divide_cells(const Graph& graph, int parts) {
+  constexpr double good_cells = 1.03, good_load = 1.1;
+  Ints best;
+  double least = 0;
+  const bool few = parts <= 8;  // recursive bisection is the better one for few parts
+  for (const bool recursive : {few, !few}) {
+    if (!best.empty() && least == 0) break;
+    Ints part = parts_of(graph, {}, {}, parts, {.recursive = recursive});
+    if (part.empty()) continue;
+    const auto [cells, load] = excess_of(graph, part, parts);
+    const double cost = std::max(0.0, cells - good_cells) + std::max(0.0, load - good_load) / 4;
+    if (best.empty() || cost < least) least = cost, best = std::move(part);
+  }
+  return best;
 }
 
 }  // namespace
 
 std::vector<std::int32_t> divide(const Graph& graph, int parts) {
   const std::int32_t n = graph.cells();
-  Ints best(static_cast<std::size_t>(n), 0);
-  if (parts == 1) return best;
+  Ints part(static_cast<std::size_t>(n), 0);
+  if (parts == 1) return part;
   if (n <= parts) {  // METIS divides no graph into single vertices
-    std::iota(best.begin(), best.end(), 0);
-    return best;
+    std::iota(part.begin(), part.end(), 0);
+    return part;
   }
-  best.clear();
-  double least = 0;
-  const auto attempt = [&](const Graph& form, const Ints& cells, const Ints& row_of) {
-    const bool few = parts <= 8;  // recursive bisection is the better one for few parts
-    for (const bool recursive : {few, !few}) {
-      if (!best.empty() && least == 0) return;
-      Ints part = parts_of(form, cells, parts, recursive);
-      if (part.empty()) continue;
-      if (!row_of.empty()) {
-        Ints of_cells(row_of);
-        for (std::int32_t& p : of_cells) p = part[p];
-        part = std::move(of_cells);
-      }
-      const double now = cost(graph, part, parts, !row_of.empty());
-      if (best.empty() || now < least) least = now, best = std::move(part);
-    }
-  };
-  if (!graph.ties.empty()) {
-    constexpr std::int32_t cells_a_row = 4, rows_a_part = 8;  // fewer: no rows, or too coarse
-    std::int32_t count = 0;
-    Ints row_of = rows_of(graph, count);
-    if (count <= n / cells_a_row && count >= rows_a_part * parts) {
-      const Rows rows = gathered(graph, std::move(row_of), count);
-      attempt(rows.graph, rows.cells, rows.row_of);
-    }
-  }
-  attempt(graph, {}, {});
-  return best;
+  part = graph.column.empty() ? Ints{} : divide_columns(graph, parts);
+  return part.empty() ? divide_cells(graph, parts) : part;
 }
 
 }  // namespace fsi

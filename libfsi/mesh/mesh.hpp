@@ -10,7 +10,7 @@
 #include "libfsi/mesh/cell_type.hpp"
 #include "libfsi/mesh/halo.hpp"
 
-struct _p_DM;  // PETSc's: its DM is a _p_DM*
+struct _p_DM;  // PETSc's: its DM is a _p_DM* NOLINT(bugprone-reserved-identifier)
 
 namespace fsi {
 

@@ -9,6 +9,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/columns.hpp"
 #include "libfsi/mesh/divide.hpp"
 
 namespace fsi {
@@ -16,45 +17,20 @@ namespace {
 
 static_assert(sizeof(PetscInt) == sizeof(std::int32_t));
 
-/// Mean of the corners of a cell, and of one of its faces.
-Vec3 middle(const CellList& list, Index cell) {
-  Vec3 sum;
-  for (const Index p : list.corners[cell]) sum += list.points[p];
-  return sum / static_cast<Real>(list.corners[cell].size());
-}
-Vec3 middle(const CellList& list, Half half) {
-  const auto corners = shape_of(list.types[half.cell]).face_corners(half.face);
-  Vec3 sum;
-  for (const std::int8_t i : corners) sum += list.points[list.corners[half.cell][i]];
-  return sum / static_cast<Real>(corners.size());
-}
-
 /// A load in whole numbers, as METIS takes it: eighths, less than a thousand.
 std::int32_t load_units(Real load) {
   return static_cast<std::int32_t>(std::lround(8 * std::clamp(load, 0.0, 1000.0)));
-}
-
-/// 1 where the way from the cell to the face is normal to the unit vector, `slender` along it.
-std::int32_t weight_of(const CellList& whole, Index half, const Vec3& axis) {
-  const Vec3 way = middle(whole, Half(half)) - middle(whole, Half(half).cell);
-  const Real cosine = dot(way, axis) / norm(way);
-  return 1 + static_cast<std::int32_t>(std::lround((slender - 1) * cosine * cosine));
 }
 
 /// A face as one of its cells tells it to the rank where both meet.
 struct Side {
   std::array<Index, max_face_corners> key;  // vertices by number in the file, ascending
   Index cell;                               // number in the file
-  std::int32_t tie;
-};
-/// What it is told: the cell on the other side (-1: none) and the sum of the ties.
-struct Beyond {
-  Index cell;
-  std::int32_t tie;
 };
 
-std::vector<Beyond> matched(const std::vector<Side>& sides) {
-  std::vector<Beyond> answers(sides.size(), {-1, 0});
+/// The cell on the other side of each; -1: none.
+std::vector<Index> matched(const std::vector<Side>& sides) {
+  std::vector<Index> answers(sides.size(), -1);
   std::vector<std::size_t> order(sides.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(
@@ -62,8 +38,7 @@ std::vector<Beyond> matched(const std::vector<Side>& sides) {
   for (std::size_t k = 1; k < order.size(); ++k) {
     const std::size_t i = order[k - 1], j = order[k];
     if (sides[i].key != sides[j].key) continue;
-    const std::int32_t tie = sides[i].tie + sides[j].tie;
-    answers[i] = {sides[j].cell, tie}, answers[j] = {sides[i].cell, tie};
+    answers[i] = sides[j].cell, answers[j] = sides[i].cell;
   }
   return answers;
 }
@@ -71,7 +46,7 @@ std::vector<Beyond> matched(const std::vector<Side>& sides) {
 /// A side as it is told, on its way to the rank that holds its lowest vertex.
 Side side_of(const CellList& here, Index half, Index first_cell) {
   const Half h(half);
-  Side side{{-1, -1, -1, -1}, first_cell + h.cell, 0};
+  Side side{{-1, -1, -1, -1}, first_cell + h.cell};
   std::size_t n = 0;
   for (const std::int8_t i : shape_of(here.types[h.cell]).face_corners(h.face)) {
     side.key[n++] = here.vertex_id[here.corners[h.cell][i]];
@@ -81,26 +56,25 @@ Side side_of(const CellList& here, Index half, Index first_cell) {
 }
 
 /// Collective. For each of the halves without a mate here the cell that has it elsewhere.
-std::vector<Beyond> sought(const CellList& here, const std::vector<Index>& halves,
-                           const Stretches& cells, Index n_vertices, const Vec3& axis) {
+std::vector<Index> sought(const CellList& here, const std::vector<Index>& halves,
+                          const Stretches& cells, Index n_vertices) {
   const Stretches vertices = Stretches::even(n_vertices);
   std::vector<std::vector<Side>> to(static_cast<std::size_t>(ranks()));
   std::vector<std::vector<std::size_t>> asked(to.size());
   for (std::size_t i = 0; i < halves.size(); ++i) {
-    Side side = side_of(here, halves[i], cells.first());
-    if (norm(axis) > 0) side.tie = weight_of(here, halves[i], axis);
+    const Side side = side_of(here, halves[i], cells.first());
     const int holder =
         vertices.holder(*std::ranges::find_if(side.key, [](Index v) { return v >= 0; }));
     to[holder].push_back(side), asked[holder].push_back(i);
   }
   const Received<Side> sides = exchange(std::move(to));
-  const std::vector<Beyond> found = matched(sides.items);
-  std::vector<std::vector<Beyond>> told;
+  const std::vector<Index> found = matched(sides.items);
+  std::vector<std::vector<Index>> told;
   for (std::size_t r = 0; r + 1 < sides.begin.size(); ++r) {
     told.emplace_back(found.begin() + sides.begin[r], found.begin() + sides.begin[r + 1]);
   }
-  const Received<Beyond> answers = exchange(std::move(told));
-  std::vector<Beyond> result(halves.size());
+  const Received<Index> answers = exchange(std::move(told));
+  std::vector<Index> result(halves.size());
   for (std::size_t r = 0; r < asked.size(); ++r) {
     auto answer = answers.items.begin() + answers.begin[r];
     for (const std::size_t i : asked[r]) result[i] = *answer++;
@@ -108,12 +82,11 @@ std::vector<Beyond> sought(const CellList& here, const std::vector<Index>& halve
   return result;
 }
 
-/// The graph of this rank's cells; ties where `along` is not zero, load where there is a function
-/// of it. Neighbours stand in the order of the faces: the same whoever holds the cells.
+/// Collective. The graph of this rank's cells; columns where `along` is not zero, load where there
+/// is a function of it. Neighbours stand in the order of the faces: the same whoever holds the
+/// cells.
 Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, const Vec3& along,
                const CellLoad& load) {
-  const bool tied = norm(along) > 0;
-  const Vec3 axis = tied ? along / norm(along) : Vec3{};
   const std::vector<Index> mate = match_faces(here);
   std::vector<Index> open;
   for (Index c = 0; c < here.n_cells(); ++c) {
@@ -121,22 +94,19 @@ Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, c
       if (mate[half_of(c, f)] < 0) open.push_back(half_of(c, f));
     }
   }
-  const std::vector<Beyond> beyond = sought(here, open, cells, n_vertices, axis);
+  const std::vector<Index> beyond = sought(here, open, cells, n_vertices);
   Graph graph;
   auto next = beyond.begin();
   for (Index c = 0; c < here.n_cells(); ++c) {
     for (int f = 0; f < shape_of(here.types[c]).faces; ++f) {
-      const Index half = half_of(c, f), other = mate[half];
-      const Beyond far = other < 0 ? *next++ : Beyond{cells.first() + Half(other).cell, 0};
-      if (far.cell < 0) continue;
-      graph.neighbours.push_back(far.cell);
-      if (!tied) continue;
-      graph.ties.push_back(other < 0 ? far.tie
-                                     : weight_of(here, half, axis) + weight_of(here, other, axis));
+      const Index other = mate[half_of(c, f)];
+      const Index far = other < 0 ? *next++ : cells.first() + Half(other).cell;
+      if (far >= 0) graph.neighbours.push_back(far);
     }
     graph.start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
     if (load) graph.load.push_back(load_units(load(middle(here, c))));
   }
+  if (norm(along) > 0) graph.column = columns_of(here, along);
   return graph;
 }
 
@@ -158,7 +128,7 @@ Graph gathered(const Graph& mine) {
     whole.start.push_back(whole.start.back() + degree);
   }
   whole.neighbours = gathered(mine.neighbours);
-  whole.ties = gathered(mine.ties), whole.load = gathered(mine.load);
+  whole.column = gathered(mine.column), whole.load = gathered(mine.load);
   if (std::ranges::none_of(whole.load, [](std::int32_t l) { return l > 0; })) whole.load.clear();
   return whole;
 }

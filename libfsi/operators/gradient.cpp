@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "libfsi/operators/stencil.hpp"
+
 namespace fsi {
 namespace {
 
@@ -140,12 +142,9 @@ void gradient(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryFiel
   for (const Index c : cells) {
     Tensor sum;
     for (const Index f : mesh.cell_faces[c]) {
-      if (f >= mesh.n_internal)
-        sum += outer(u_b[f - mesh.n_internal] - u[c], stencil.owner[f]);
-      else if (mesh.owner[f] == c)
-        sum += outer(u[mesh.neighbour[f]] - u[c], stencil.owner[f]);
-      else
-        sum += outer(u[mesh.owner[f]] - u[c], stencil.neighbour[f]);
+      const Index n = beyond(mesh, f, c);
+      const Vec3& u_n = n < 0 ? u_b[f - mesh.n_internal] : u[n];
+      sum += outer(u_n - u[c], stencil.weight(f, mesh.owner[f] == c));
     }
     L[c] = sum;
   }

@@ -29,6 +29,9 @@ struct GradientStencil {
   /// (I - (1/V) sum S (x) d over these)^-1, I where that is singular: a pressure's own gradient.
   std::vector<Index> closed_cells;
   std::vector<Tensor> closed;
+
+  /// g_cf of face f for its cell P, or for N.
+  const Vec3& weight(Index f, bool of_owner) const { return of_owner ? owner[f] : neighbour[f]; }
 };
 
 /// grad q in every owned cell, halo updated. q: owned and halo set; q_b: values on the boundary

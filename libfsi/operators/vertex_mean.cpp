@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "libfsi/operators/stencil.hpp"
+
 namespace fsi {
 
 template <class Gradient>
@@ -85,10 +87,9 @@ template <class Gradient>
 Gradient VertexMean<Gradient>::at_face(Index i, const CellField<Gradient>& of_cells) const {
   const auto rows = face_rows_[i];
   if (rows.empty()) {
-    const Index f = weights_.irregular[i], P = mesh_.owner[f];
-    if (f >= mesh_.n_internal) return of_cells[P];
-    const Real lambda = weights_.lambda[f];
-    return (1 - lambda) * of_cells[P] + lambda * of_cells[mesh_.neighbour[f]];
+    const Index f = weights_.irregular[i];
+    if (f >= mesh_.n_internal) return of_cells[mesh_.owner[f]];
+    return face_mean(of_cells, f, weights_, mesh_);
   }
   Gradient sum;
   for (const Index r : rows) sum += mean_[r];

@@ -11,6 +11,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/solid/strain.hpp"
 
 namespace fsi {
 namespace {
@@ -250,11 +251,9 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
   if (solver.body() != nullptr) all.push_back({solver.carried_dt(), "advective"});
   if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
-  constexpr Real strain = 0.4;  // below what a step is rejected for
-  if (solver.body() != nullptr) all.push_back({solver.strain_dt(strain), "strain"});
-  constexpr Real growth = 1.1;
+  if (solver.body() != nullptr) all.push_back({solver.strain_dt(solid::strain_of_part), "strain"});
   if (time.step_first > 0)
-    all.push_back({time.step_first * std::pow(growth, solver.state().step), "start"});
+    all.push_back({time.step_first * std::pow(step_growth, solver.state().step), "start"});
   if (time.step_max > 0) all.push_back({time.step_max, "step_max"});
   return all;
 }

@@ -35,6 +35,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
       simulated_(simulated(options)),
       lock_(io::make_directory(setup.output.directory)),
       checkpoints_(setup.output.directory, solver.mesh()),
+      energy_(solver),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval),
       checkpoint_(setup.output.checkpoint_interval) {
@@ -125,6 +126,7 @@ io::Snapshot Output::snapshot() {
   io::Snapshot all(identity);
   all.add("simulated", &simulated_);
   solver_.list(all);
+  energy_.list(all);
   all.add("rejected_steps", &solver_.report().rejected);
   samples_text_ = samples_.text();
   all.add("rows", &samples_text_);
@@ -198,6 +200,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
+  watch_energy(dt);
   tell_of_leaving();
   write_rows(limit, dt);
   if (field_.due(s.t)) write_fields();
@@ -207,6 +210,27 @@ void Output::write_due(const Limit& asked, Real dt) {
     return;
   write_progress(limit, dt);
   progress_at_ = watch_.seconds();
+}
+
+/// A word when the run has made energy, and its end where it has made most of what there is: such a
+/// run is wrong, whatever else it tells. The start from an impulse is not judged.
+void Output::watch_energy(Real dt) {
+  constexpr Real odd = 0.1, wrong = 0.5;
+  constexpr int start = 20;
+  energy_.add(solver_, dt);
+  const Real part = energy_.part_made();
+  if (solver_.state().step < start || part < odd) return;
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of "
+                "flow.csv)",
+                solver_.state().t, 100 * part);
+  const std::string advice =
+      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity";
+  if (part > wrong) solver_.report().failure = text.data() + advice;
+  if (!told_of_energy_ && part <= wrong && rank() == 0)
+    std::fprintf(stderr, "fsi: warning: %s%s\n", text.data(), advice.c_str());
+  told_of_energy_ = true;
 }
 
 /// A word when a solid begins to leave the mesh, and one when nothing of it is left.
@@ -243,6 +267,8 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   const State& s = solver_.state();
   const Real t_shape = solver_.body() != nullptr ? solver_.body()->t : s.t;
   std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
+  all[0].entries.push_back({"work", energy_.work()});
+  all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
   if (s.step == 0)
     for (Entry& entry : all[0].entries)
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();

@@ -17,6 +17,7 @@
 #include "libfsi/run/case.hpp"
 #include "libfsi/run/records.hpp"
 #include "libfsi/run/samples.hpp"
+#include "libfsi/solver/energy.hpp"
 
 namespace fsi {
 
@@ -57,6 +58,7 @@ class Output {
   void open();
   void open_tables();
   void write_due(const Limit& asked, Real dt);
+  void watch_energy(Real dt);
   void tell_of_leaving();
   void write_rows(const Limit& limit, Real dt);
   std::vector<Row> rows(const Limit& limit, Real dt, Real wall_per_step);
@@ -72,6 +74,7 @@ class Output {
   std::string driver_, simulated_;
   io::Lock lock_;
   io::Checkpoint checkpoints_;
+  EnergyBalance energy_;
   std::vector<SolidRecord> records_;  // of the bodies
   Samples samples_;
   std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
@@ -85,7 +88,7 @@ class Output {
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
   std::map<std::string, Real> limits_;  // steps by what set their length
   std::string message_;                 // why the run ended, where no step failed
-  bool interrupted_ = false, finished_ = false;
+  bool interrupted_ = false, finished_ = false, told_of_energy_ = false;
   struct Said {
     bool leaving = false, left = false;
   };

@@ -13,11 +13,12 @@ Real length(Options& options, const std::string& name, Real fallback, const std:
   return options.real(name, fallback, {.help = help, .unit = "length", .positive = true});
 }
 
-/// The shape about the origin, its axis along x. With -help every shape's options are listed.
+/// The shape about the origin, its axis along x. With -help and for "none" every shape's options
+/// are read.
 shapes::Shape undeformed(Options& options, const std::string& of, const std::string& name,
                          Real& thickness) {
   shapes::Shape shape = shapes::sphere(1);
-  const bool all = options.help();
+  const bool all = options.help() || name == "none";
   if (all || name == "torus") {
     const Real R = length(options, of + "major_radius", 0.3,
                           "torus: radius of the circle in the middle of its tube");
@@ -86,18 +87,17 @@ void read_material(Options& options, const std::string& of, const Physics& physi
 void place(Options& options, const std::string& of, SolidSetup& solid) {
   const Vec3 centre = options.vec3(of + "center", {0.5, 0.5, 0.5},
                                    {.help = "centre of the shape", .unit = "length"});
-  if (options.given(of + "axis")) {
-    const Vec3 axis =
-        options.vec3(of + "axis", {1, 0, 0}, {.help = "axis of revolution", .unit = ""});
+  if (options.given(of + "axis") || options.help()) {
+    const Vec3 axis = options.vec3(
+        of + "axis", {1, 0, 0}, {.help = "axis of revolution, in place of the angle", .unit = ""});
     require(norm(axis) > 0, "option -" + of + "axis must not be zero");
-    require(!options.given(of + "angle"),
+    require(!options.given(of + "angle") || options.help(),
             "options -" + of + "axis and -" + of + "angle exclude each other");
     solid.solid.shape = shapes::translate(shapes::align(solid.about_origin, axis), centre);
-    return;
+    if (!options.help()) return;
   }
   solid.angle = options.real(of + "angle", 0,
-                             {.help = "between the axis of revolution and x, in the x-y plane; or "
-                                      "the axis itself, x,y,z, by the option of that name",
+                             {.help = "between the axis of revolution and x, in the x-y plane",
                               .unit = "degrees",
                               .min = -360,
                               .max = 360});
@@ -106,7 +106,8 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
       shapes::translate(shapes::rotate(solid.about_origin, {0, 0, 1}, turn), centre);
 }
 
-/// Adds the solid of the options that begin with `of`; none where its shape is "none".
+/// Adds the solid of the options that begin with `of`; none where its shape is "none", whose other
+/// options are checked and left out of what the run tells.
 void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::string& of,
                const std::string& name, const Physics& physics) {
   SolidSetup solid;
@@ -115,12 +116,14 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.shape_name = options.choice(
       of + "shape", "none", {"none", "torus", "sphere", "ellipsoid", "disk", "cylinder", "capsule"},
       "undeformed shape; none: no solid");
-  if (solid.shape_name == "none" && !options.help()) return;
-  read_material(options, of, physics, solid.solid);
-  solid.solid.kinematics = read_kinematics(options, of);
-  solid.about_origin = undeformed(options, of, solid.shape_name, solid.thickness);
-  place(options, of, solid);
-  if (solid.shape_name != "none") solids.push_back(std::move(solid));
+  const bool none = solid.shape_name == "none";
+  Options aside(options);
+  Options& read = none && !options.help() ? aside : options;
+  read_material(read, of, physics, solid.solid);
+  solid.solid.kinematics = read_kinematics(read, of);
+  solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
+  place(read, of, solid);
+  if (!none) solids.push_back(std::move(solid));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "libfsi/solid/balanced_jump_force.hpp"
 
+#include "libfsi/operators/stencil.hpp"
+
 namespace fsi::solid {
 
 BalancedJumpForce::BalancedJumpForce(const Mesh& mesh, const FaceWeights& weights)
@@ -73,9 +75,7 @@ void BalancedJumpForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow
   for (const Index c : band.cells()) force[c] += whole_[c];
   for (const Index f : band.faces()) {
     if (f >= mesh_.n_internal) continue;
-    const Real lambda = weights.lambda[f];
-    const Vec3 mean = lambda * whole_[mesh_.owner[f]] + (1 - lambda) * whole_[mesh_.neighbour[f]];
-    Real along = dot(mean, mesh_.Sf[f]);
+    Real along = dot(mirror_mean(whole_, f, weights, mesh_), mesh_.Sf[f]);
     if (const Index i = weights.place[f]; i >= 0) along -= dot(at_faces_[i], weights.k[f]);
     rhie_chow_source[f] -= along / weights.g[f];
   }

@@ -2,13 +2,23 @@
 
 #include <cmath>
 
+#include "libfsi/operators/stencil.hpp"
+
 namespace fsi::solid {
 namespace {
 
-/// tau . S on a boundary face; on a plane of symmetry its part along the normal.
-Vec3 traction(const SymTensor& tau, const Vec3& S, bool mirror) {
-  const Vec3 t = dot(tau, S);
+/// tau . S on boundary face f; on a plane of symmetry its part along the normal.
+Vec3 traction(const SymTensor& tau, const ElasticState& solid, const Mesh& mesh, Index f) {
+  const Vec3 S = mesh.Sf[f], t = dot(tau, S);
+  const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh.n_internal] != 0;
   return mirror ? (dot(t, S) / norm2(S)) * S : t;
+}
+
+/// (grad)_f . r, the mean of the two cells of internal face f.
+SymTensor mean_along(const CellField<SymGradient>& grad, const Vec3& r, Index f,
+                     const FaceWeights& weights, const Mesh& mesh) {
+  const Real lambda = weights.lambda[f];
+  return (1 - lambda) * along(grad[mesh.owner[f]], r) + lambda * along(grad[mesh.neighbour[f]], r);
 }
 
 }  // namespace
@@ -27,19 +37,16 @@ void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rh
     if (f >= mesh_.n_internal) {
       // tau_b = tau_P + grad tau . d
       const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], d);
-      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
-      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), mesh_.Sf[f], mirror);
+      force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), solid, mesh_, f);
       continue;
     }
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
-    const SymTensor rise = (1 - lambda) * along(grad[P], d) + lambda * along(grad[N], d);
-    rhie_chow_source[f] += dot(n, dot(G_ * dev(alpha[N] * T[N] - alpha[P] * T[P] - rise), n));
+    const SymTensor rise = alpha[N] * T[N] - alpha[P] * T[P];
+    rhie_chow_source[f] += dot(n, dot(G_ * dev(rise - mean_along(grad, d, f, weights, mesh_)), n));
     // (aT)_f = (1 - lambda) aT_P + lambda aT_N + (grad aT)_f . skew, aT = alpha T
     SymTensor T_f = (1 - lambda) * alpha[P] * T[P] + lambda * alpha[N] * T[N];
-    if (weights.place[f] >= 0)
-      T_f +=
-          (1 - lambda) * along(grad[P], weights.skew[f]) + lambda * along(grad[N], weights.skew[f]);
+    if (weights.place[f] >= 0) T_f += mean_along(grad, weights.skew[f], f, weights, mesh_);
     const Vec3 t = dot(G_ * dev(T_f), mesh_.Sf[f]);
     force[P] += (1 / mesh_.V[P]) * t;
     force[N] -= (1 / mesh_.V[N]) * t;
@@ -59,20 +66,17 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
       // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
-      const bool mirror = solid.mirror != nullptr && (*solid.mirror)[f - mesh_.n_internal] != 0;
       const SymTensor tau = G_ * dev(T[P] + along(grad[P], d));
       const Vec3& m = (*solid.normal)[f];
       const Real s = dot(m, dot(tau, m));
-      force[P] += (1 / mesh_.V[P]) * (a_f * traction(tau, S, mirror) + ((alpha[P] - a_f) * s) * S);
+      force[P] +=
+          (1 / mesh_.V[P]) * (a_f * traction(tau, solid, mesh_, f) + ((alpha[P] - a_f) * s) * S);
       continue;
     }
     const Index N = mesh_.neighbour[f];
     const Real lambda = weights.lambda[f];
-    const auto rise = [&](const Vec3& r) {
-      return (1 - lambda) * along(grad[P], r) + lambda * along(grad[N], r);
-    };
-    SymTensor T_f = (1 - lambda) * T[P] + lambda * T[N];
-    if (weights.place[f] >= 0) T_f += rise(weights.skew[f]);
+    SymTensor T_f = face_mean(T, f, weights, mesh_);
+    if (weights.place[f] >= 0) T_f += mean_along(grad, weights.skew[f], f, weights, mesh_);
     const SymTensor tau = G_ * dev(T_f);
     const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
     const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);

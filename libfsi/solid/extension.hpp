@@ -1,14 +1,13 @@
 #pragma once
 // Values of the solid's interior carried outward into the fluid.
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
+#include "libfsi/solid/rings.hpp"
 
 namespace fsi::solid {
 
@@ -29,7 +28,7 @@ inline constexpr Real alpha_known = 0.5;
 /// as a constant; what alternates from cell to cell is not extrapolated.
 class Extension {
  public:
-  explicit Extension(const Mesh& mesh);
+  explicit Extension(const Mesh& mesh) : mesh_(mesh), zone_(mesh), rings_(mesh) {}
 
   /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known, and finds its
   /// inner cells: those whose face neighbours are all known.
@@ -54,32 +53,21 @@ class Extension {
   /// Not zero in known cells and rings, those of the last two calls of `mark`; owned and halo.
   const CellField<Real>& near() const { return zone_; }
   /// Owned known cells, then those of the rings but for the last.
-  std::span<const Index> inside() const { return std::span(set_).first(end_[rings - 1]); }
+  std::span<const Index> inside() const { return rings_.inside(); }
   /// Owned cells of the last ring.
-  std::span<const Index> last_ring() const { return std::span(set_).subspan(end_[rings - 1]); }
+  std::span<const Index> last_ring() const { return rings_.last_ring(); }
 
  private:
-  static constexpr int rings = 3;
-
-  void list_ring(Real ring, const Band& known);
-  /// Owned known cells for 0, else those of the ring.
-  std::span<const Index> ring(int i) const {
-    const std::size_t begin = i == 0 ? 0 : end_[i - 1];
-    return std::span(set_).subspan(begin, end_[i] - begin);
-  }
   void set_slopes(CellField<SymGradient>& slope, const CellField<SymTensor>& T);
   SymGradient least_squares(const CellField<SymTensor>& T, Index c) const;
   SymGradient limited_slope(const CellField<SymGradient>& slope, Index c) const;
 
   const Mesh& mesh_;
-  CellField<Real> zone_;     // 1: near, 2: inner, 3: and away from the boundary
-  CellField<Real> ring_of_;  // 1: known, 2 to 4: of a ring; 0: neither
-  std::vector<Index> set_, last_set_, near_, alone_;
-  std::array<std::size_t, rings + 1> end_{};  // in set_, of the known cells and of each ring
+  CellField<Real> zone_;  // 1: near, 2: inner, 3: and away from the boundary
+  Rings rings_;
+  std::vector<Index> known_, alone_, near_;  // alone_: in the band, but taken for unknown
   std::vector<SymGradient> slopes_;
   std::vector<SymTensor> change_;
-  std::vector<std::int32_t> stamp_;
-  std::int32_t calls_ = 0;
 };
 
 }  // namespace fsi::solid

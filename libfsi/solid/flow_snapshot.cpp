@@ -1,5 +1,7 @@
 #include "libfsi/solid/flow_snapshot.hpp"
 
+#include "libfsi/operators/stencil.hpp"
+
 namespace fsi::solid {
 namespace {
 
@@ -11,11 +13,8 @@ void gradient_of(CellField<SymGradient>& grad, const Value& value, const Gradien
     SymGradient sum;
     const SymTensor own = value(c);
     for (const Index f : mesh.cell_faces[c]) {
-      if (f >= mesh.n_internal) continue;
-      const bool owner = mesh.owner[f] == c;
-      const SymTensor dT = value(owner ? mesh.neighbour[f] : mesh.owner[f]) - own;
-      const Vec3& g = owner ? stencil.owner[f] : stencil.neighbour[f];
-      sum.x += g.x * dT, sum.y += g.y * dT, sum.z += g.z * dT;
+      const Index n = beyond(mesh, f, c);
+      if (n >= 0) sum += outer(value(n) - own, stencil.weight(f, mesh.owner[f] == c));
     }
     grad[c] = sum;
   }

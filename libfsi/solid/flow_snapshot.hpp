@@ -11,7 +11,12 @@ namespace fsi::solid {
 /// Derivatives of a symmetric tensor along x, y, z.
 struct SymGradient {
   SymTensor x, y, z;
+
+  SymGradient& operator+=(const SymGradient& b) { return x += b.x, y += b.y, z += b.z, *this; }
+  friend SymGradient operator*(Real s, const SymGradient& g) { return {s * g.x, s * g.y, s * g.z}; }
 };
+/// That of T along g: the derivative along x is g.x T.
+inline SymGradient outer(const SymTensor& T, const Vec3& g) { return {g.x * T, g.y * T, g.z * T}; }
 /// Change along the vector d.
 inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;

@@ -1,12 +1,12 @@
 #include "libfsi/solid/interface_gradient.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/least_squares.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/one_sided.hpp"
-#include "libfsi/solid/quadratic_fit.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -23,15 +23,13 @@ template <class Velocity, class Same, class HasL>
 std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
                           const BoundaryField<Vec3>& u_b, const Same& same, const HasL& has_L,
                           const Mesh& mesh, Index c) {
-  QuadraticFit quadratic(mesh.dim, mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]));
+  QuadraticFit quadratic(mesh.dim, cell_size(mesh, c));
   const Vec3 u_c = u[c];
-  for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
-    const Index n = mesh.cell_neighbours.index[k];
-    if (!same(n)) continue;
-    const Vec3 r = mesh.C[n] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[k]];
+  for_vertex_neighbours(c, mesh, [&](Index n, const Vec3& r) {
+    if (!same(n)) return;
     quadratic.add_value(r, u[n] - u_c);
     if (has_L(n)) quadratic.add_gradient(r, L[n]);
-  }
+  });
   for (const Index f : mesh.cell_faces[c])
     if (f >= mesh.n_internal) quadratic.add_value(mesh.d[f], u_b[f - mesh.n_internal] - u_c);
   return quadratic.gradient();

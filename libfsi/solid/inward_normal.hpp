@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::solid {
 
@@ -13,12 +14,10 @@ namespace fsi::solid {
 inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index c) {
   Vec3 n;
   Real size = 0;
-  for (Index i = mesh.cell_neighbours.offset[c]; i < mesh.cell_neighbours.offset[c + 1]; ++i) {
-    const Index k = mesh.cell_neighbours.index[i];
-    const Vec3 d = mesh.C[k] - mesh.C[c] + mesh.translation[mesh.cell_neighbour_shift[i]];
+  for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& d) {
     n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
     size += std::abs(alpha[k] - alpha[c]) / norm(d);
-  }
+  });
   constexpr Real alike = 1e-6;
   return norm(n) > alike * size ? n / norm(n) : Vec3{};
 }

@@ -29,14 +29,13 @@ SymTensor log_rate(const Tensor& L, const SymTensor& psi) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& a = e.vector[i];
     const Real m = 2 * dot(a, Le[i]);
-    rate += m * SymTensor{a.x * a.x, a.x * a.y, a.x * a.z, a.y * a.y, a.y * a.z, a.z * a.z};
+    rate += m * square(a);
     for (std::size_t j = i + 1; j < 3; ++j) {
       const Vec3& b = e.vector[j];
       const Real d = e.value[j] - e.value[i], up = bernoulli(d);
       // b(-d) = b(d) + d
       const Real r = (up + d) * dot(a, Le[j]) + up * dot(b, Le[i]);
-      rate += r * SymTensor{2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
-                            2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
+      rate += r * both_ways(a, b);
     }
   }
   return rate;

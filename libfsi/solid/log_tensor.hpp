@@ -10,11 +10,7 @@ namespace fsi::solid {
 template <class Function>
 SymTensor apply_to_eigenvalues(const Eigen& e, Function&& f) {
   SymTensor sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& v = e.vector[i];
-    sum +=
-        f(e.value[i]) * SymTensor{v.x * v.x, v.x * v.y, v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};
-  }
+  for (std::size_t i = 0; i < 3; ++i) sum += f(e.value[i]) * square(e.vector[i]);
   return sum;
 }
 

@@ -6,6 +6,7 @@
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/koren.hpp"
 
 namespace fsi::solid {
@@ -60,20 +61,19 @@ Tensor ReferenceMap::gradient(Index c) const {
   if (static_cast<int>(mesh_.cell_faces[c].size()) <= mesh_.dim + 1)
     return extension_.regression(c);
   for (const Index f : mesh_.cell_faces[c]) {
-    if (f >= mesh_.n_internal) return extension_.regression(c);
-    const bool owner = mesh_.owner[f] == c;
-    const Index n = owner ? mesh_.neighbour[f] : mesh_.owner[f];
-    sum += outer(d[n] - d[c], owner ? stencil_.owner[f] : stencil_.neighbour[f]);
+    const Index n = beyond(mesh_, f, c);
+    if (n < 0) return extension_.regression(c);
+    sum += outer(d[n] - d[c], stencil_.weight(f, mesh_.owner[f] == c));
   }
   return sum;
 }
 
 void ReferenceMap::extend() {
-  for (const Index c : extension_.inside()) slope_[c] = {};
-  for (const Index c : extension_.last_ring()) slope_[c] = {};
+  const Rings& rings = extension_.rings();
+  for (const Index c : rings.all()) slope_[c] = {};
   extension_.apply(d, is_set, known_);
-  for (const Index c : extension_.inside()) slope_[c] = gradient(c);
-  for (const Index c : extension_.last_ring()) slope_[c] = extension_.slope(c);
+  for (const Index c : rings.inside()) slope_[c] = gradient(c);
+  for (const Index c : rings.last_ring()) slope_[c] = extension_.slope(c);
   mesh_.halo.update(slope_);
 }
 

@@ -16,6 +16,16 @@ Real part_along(const Vec3& m, const Vec3& d) {
   return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
 }
 
+/// Weight of L_N in the mean of L on the way between the cells of face f. u_N - u_P = (L_P + L_N) /
+/// 2 . d, the rule of the middle, is of third order; across the kink at the surface a part alpha_f
+/// of the way is the solid's.
+Real part_of_N(const ElasticTerms& solid, const FaceWeights& weights, const Mesh& mesh, Index f) {
+  if (!solid.kink) return weights.lambda[f];
+  const bool P_in = solid.fraction[mesh.owner[f]] >= alpha_known;
+  const bool N_in = solid.fraction[mesh.neighbour[f]] >= alpha_known;
+  return P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
+}
+
 }  // namespace
 
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
@@ -65,11 +75,6 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
-    // u_N - u_P = (L_P + L_N) / 2 . d, the rule of the middle, is of third order; across the kink
-    // at the surface a part alpha_f of the way is the solid's.
-    const bool P_in = solid.fraction[P] >= alpha_known, N_in = solid.fraction[N] >= alpha_known;
-    const Real kinked = P_in == N_in ? 0.5 : N_in ? solid.alpha[f] : 1 - solid.alpha[f];
-    const Real w = solid.kink ? kinked : weights.lambda[f];
     // less mu_s, as the solid's own compact viscous term does its part
     if (solid.one_sided) {
       e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});
@@ -82,6 +87,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
     }
     // e g ((u_N - u_P) - (L_f . d))
+    const Real w = part_of_N(solid, weights, mesh_, f);
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
     const Vec3 flux = e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(L_f, mesh_.d[f]));
     force[P] += (1 / mesh_.V[P]) * flux;

@@ -3,6 +3,7 @@
 // solid.
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
 #include "libfsi/solid/inward_normal.hpp"
@@ -13,11 +14,9 @@ namespace fsi::solid {
 /// L: set on both sides of irregular faces.
 inline Real flux_defect(const FlowSnapshot& snapshot, const Mesh& mesh, Index f) {
   const FaceWeights& weights = snapshot.weights;
-  const Index P = mesh.owner[f], N = mesh.neighbour[f];
-  const Real lambda = weights.lambda[f];
-  Vec3 u_f = lambda * snapshot.u[P] + (1 - lambda) * snapshot.u[N];
+  Vec3 u_f = mirror_mean(snapshot.u, f, weights, mesh);
   if (weights.place[f] >= 0)
-    u_f += dot((1 - lambda) * snapshot.L[P] + lambda * snapshot.L[N], weights.from_mirror(f, mesh));
+    u_f += dot(face_mean(snapshot.L, f, weights, mesh), weights.from_mirror(f, mesh));
   return snapshot.phi[f] - dot(u_f, mesh.Sf[f]);
 }
 
@@ -48,7 +47,7 @@ inline Tensor flux_consistent_gradient(const FlowSnapshot& snapshot, const Mesh&
     if (f >= mesh.n_internal) continue;
     const Vec3& S = mesh.Sf[f];
     const Real rest = flux_defect(snapshot, mesh, f);
-    sum += ((mesh.owner[f] == c ? rest : -rest) / norm2(S)) * outer(S, S);
+    sum += (outward(mesh, f, c) * rest / norm2(S)) * outer(S, S);
   }
   return snapshot.L[c] + (1 / mesh.V[c]) * sum;
 }

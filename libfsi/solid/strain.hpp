@@ -13,9 +13,11 @@ struct Strain {
   Real of_part = 0;  ///< largest change of log B in one part of the step
 };
 
-/// A step in which the solid would strain by more than this is taken in parts.
+/// A step in which the solid would strain by more than this is taken in parts, or made smaller.
 inline constexpr Real strain_of_part = 0.4;
-/// At most so many.
+/// A step, or one of its parts, in which it strains by more than this is taken back.
+inline constexpr Real strain_max = 0.5;
+/// At most so many parts.
 inline constexpr int parts_max = 16;
 
 /// Collective. Into how many equal parts to divide what is left of a step, at most `most`. strain:

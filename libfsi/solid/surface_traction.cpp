@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/field/fraction.hpp"
+#include "libfsi/operators/least_squares.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/one_sided.hpp"
 
 namespace fsi::solid {
 namespace {
-
-constexpr Real whole = 1 - 1e-8;  // alpha of an uncut cell: vof::interface_eps
 
 SymTensor twice_symmetric(const Tensor& L) {
   return {2 * L.xx, L.xy + L.yx, L.xz + L.zx, 2 * L.yy, L.yz + L.zy, 2 * L.zz};
@@ -17,13 +18,11 @@ SymTensor twice_symmetric(const Tensor& L) {
 
 Vec3 along_surface(const Vec3& v, const Vec3& m) { return v - dot(v, m) * m; }
 
-bool cut(Real alpha) { return alpha < whole && alpha > 1 - whole; }
-
 /// Whether the surface lies between the centres of face f; rounding of alpha is none.
 bool at_surface(const Surface& surface, const Mesh& mesh, Index f) {
   if (f >= mesh.n_internal || norm2(surface.normal_f[f]) == 0) return false;
   const Real a = surface.alpha[mesh.owner[f]], b = surface.alpha[mesh.neighbour[f]];
-  return cut(a) || cut(b) || std::abs(a - b) > 0.5;
+  return is_cut(a) || is_cut(b) || std::abs(a - b) > 0.5;
 }
 
 /// (v m + m v) . S
@@ -47,7 +46,7 @@ SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, R
       has_own_(mesh) {}
 
 bool SurfaceTraction::uncut(Real alpha) const {
-  return mu_.solid > mu_.fluid ? alpha > whole : alpha < 1 - whole;
+  return mu_.solid > mu_.fluid ? alpha > 1 - interface_eps : alpha < interface_eps;
 }
 
 void SurfaceTraction::clear(const Band& band) {
@@ -76,34 +75,27 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
   const Vec3 m = surface.normal[c];
   const Real height = surface.height[c];
   fitted_[c] = 1;
-  SymTensor M;
+  SlopeFit fit;
   Vec3 k, h;
   Real q = 0;
-  Tensor R;
-  const Csr& around = mesh_.cell_neighbours;
-  for (Index i = around.offset[c]; i < around.offset[c + 1]; ++i) {
-    const Index n = around.index[i];
-    const Vec3 r = mesh_.C[n] - mesh_.C[c] + mesh_.translation[mesh_.cell_neighbour_shift[i]];
-    const Real w = 1 / norm2(r);
+  for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
     const Real depth = std::min(Real{0}, height + dot(m, r)) - std::min(Real{0}, height);
     const Vec3 du = surface.u[n] - surface.u[c];
-    M += w * SymTensor{r.x * r.x, r.x * r.y, r.x * r.z, r.y * r.y, r.y * r.z, r.z * r.z};
+    const Real w = fit.add(r, du);
     k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
-    R += outer(w * du, r);
-  }
+  });
   constexpr Real flat = 1e-3;  // part that counts as none left
-  const Real size = trace(M) / mesh_.dim;
-  if (mesh_.dim == 2) M.zz = 1;
-  if (!(det(M) > flat * std::pow(size, mesh_.dim))) {
+  if (!tells(fit.M, mesh_.dim, flat)) {
     L_[c] = surface.L[c], kink_[c] = {};
     return;
   }
-  const Tensor inv = inverse(Tensor{M.xx, M.xy, M.xz, M.xy, M.yy, M.yz, M.xz, M.yz, M.zz});
+  if (mesh_.dim == 2) fit.M.zz = 1;
+  const SymTensor inv = inverse(fit.M);
   const Vec3 ik = dot(inv, k);
   const Real rest = q - dot(k, ik);
-  const Vec3 a = rest > flat * q ? (1 / rest) * (h - dot(R, ik)) : Vec3{};
+  const Vec3 a = rest > flat * q ? (1 / rest) * (h - dot(fit.R, ik)) : Vec3{};
   kink_[c] = along_surface(a, m);
-  L_[c] = dot(R + (-1) * outer(kink_[c], k), inv);
+  L_[c] = dot(fit.R + (-1) * outer(kink_[c], k), inv);
 }
 
 void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) {
@@ -126,37 +118,34 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
     if (touch_[c] == 0 || has_own_[c] > 0) continue;
     SymTensor sum;
     Real weight = 0;
-    const Csr& around = mesh_.cell_neighbours;
-    for (Index i = around.offset[c]; i < around.offset[c + 1]; ++i) {
-      const Index n = around.index[i];
-      if (has_own_[n] != 1) continue;
-      const Vec3 r = mesh_.C[n] - mesh_.C[c] + mesh_.translation[mesh_.cell_neighbour_shift[i]];
-      sum += (1 / norm2(r)) * own_[n], weight += 1 / norm2(r);
-    }
+    for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
+      if (has_own_[n] == 1) sum += (1 / norm2(r)) * own_[n], weight += 1 / norm2(r);
+    });
     if (weight > 0) own_[c] = (1 / weight) * sum, has_own_[c] = 2;
   }
   mesh_.halo.update(own_);
 }
 
-SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m, Real lambda) const {
+SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m,
+                                              const FaceWeights& weights) const {
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real both = fitted_[P] + fitted_[N];
   const Real p = fitted_[P] / both, n = fitted_[N] / both;
   return {p * L_[P] + n * L_[N], along_surface(p * kink_[P] + n * kink_[N], m),
-          (1 - lambda) * own_[P] + lambda * own_[N]};
+          face_mean(own_, f, weights, mesh_)};
 }
 
 SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface,
                                                        const FaceWeights& weights) const {
   const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const Real lambda = weights.lambda[f], alpha_f = surface.alpha_f[f];
+  const Real alpha_f = surface.alpha_f[f];
   const Vec3 du = surface.u[N] - surface.u[P];
-  const Sides side = sides(f, m, lambda);
+  const Sides side = sides(f, m, weights);
   const Tensor L = side.L + alpha_f * outer(side.a, m);  // over the whole way between the centres
   const SymTensor D = twice_symmetric(L);                // 2 D
   const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
-  const Vec3 Tm = dot(G_ * ((1 - lambda) * surface.T[P] + lambda * surface.T[N]), m);
+  const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights, mesh_), m);
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the solid's own side, which mu_least has too much
   const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
@@ -213,7 +202,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
   };
   for (const Index c : band.cells()) {
     const bool more_viscous = uncut(surface.alpha[c]);
-    if (!more_viscous && (in || surface.alpha[c] <= whole)) continue;
+    if (!more_viscous && (in || surface.alpha[c] <= 1 - interface_eps)) continue;
     // what the momentum equation has in the solid, of |mu_s - mu_f|
     const Tensor in_place = (in ? -1 : 1) * surface.L[c];
     const Tensor none{};

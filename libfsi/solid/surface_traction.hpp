@@ -100,7 +100,7 @@ class SurfaceTraction {
     Vec3 a;
     SymTensor own;
   };
-  Sides sides(Index f, const Vec3& m, Real lambda) const;
+  Sides sides(Index f, const Vec3& m, const FaceWeights& weights) const;
 
   const Mesh& mesh_;
   Real G_;

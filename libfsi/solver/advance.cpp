@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "libfsi/core/clock.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
@@ -17,7 +18,6 @@ namespace {
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
 constexpr Real elastic_max = 5;             // elastic waves: found stable up to here
-constexpr Real strain_max = 0.5;            // in the step, and in each part of the solid's own
 constexpr Real eigenvalue_min = 1e-4;       // of B: its condition number reaches 1e8
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
@@ -43,7 +43,7 @@ Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
   if (!body.semi_implicit()) return {};
   if (dt > elastic_max * elastic_time(body))
     return {which + " became too stiff for the step", Term::elasticity, &body};
-  if (dt > strain_dt(strain_max) || global_max(body.strain.of_part) > strain_max)
+  if (dt > strain_dt(solid::strain_max) || global_max(body.strain.of_part) > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};
   if (global_min(body.eigenvalue_min) < eigenvalue_min)
     return {"the smallest eigenvalue of B" + (body.name.empty() ? "" : " of " + which) +
@@ -98,21 +98,20 @@ Solver::Calls::Calls(Profile& profile)
 void Solver::synchronise() {
   const auto stands_apart = [&](const Body& body) { return body.t != state_.t; };
   if (std::ranges::none_of(bodies_, stands_apart)) return;
-  for (Body& body : bodies_) advance_interface(body, state_.phi, state_.t);
+  for (Body& body : bodies_) advance_interface(body, state_.t);
   separate_bodies();
   for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);
   set_pressure_gradient(grad_p_, state_);
   set_velocity_gradient(L_, state_);
   interface_L_f_.clear();
-  for (Body& body : bodies_) transport_elastic(body, L_, state_);
+  for (Body& body : bodies_) transport_elastic(body, L_);
+  mix_density();
 }
 
 Real Solver::advance(Real dt) {
   if (!backup_) hold_backup();
   backup_->keep();
-  // After a rejected step the next ones grow by a tenth each.
-  constexpr Real growth = 1.1, none = std::numeric_limits<Real>::max();
-  dt_cap_ = std::min(growth * dt_cap_, none);
+  dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());
   report_.held_back = dt > dt_cap_;
   dt = std::min(dt, dt_cap_);
   constexpr int halvings = 8;

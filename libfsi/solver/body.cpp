@@ -31,6 +31,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       G(solid.G),
       mu(solid.mu),
       rho(solid.rho > 0 ? solid.rho : physics.rho),
+      weight(rho * solid.acceleration + (rho - physics.rho) * physics.gravity),
       alpha(mesh),
       alpha_mid(mesh),
       B(mesh),
@@ -57,7 +58,6 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
     interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
   if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
-  const Vec3 weight = rho * solid.acceleration + (rho - physics.rho) * physics.gravity;
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
   alpha_mid.assign(alpha);

@@ -119,6 +119,7 @@ struct Body {
   const FaceWeights& weights;
   std::string name;
   Real G, mu, rho;            ///< shear modulus, dynamic viscosity, density
+  Vec3 weight;                ///< body force per volume: rho a + (rho - rho_fluid) g
   CellField<Real> alpha;      ///< volume fraction of the solid
   CellField<Real> alpha_mid;  ///< mean of it and of that before the last step
   CellField<SymTensor> B;     ///< on the band's cells, zero elsewhere; owned and halo

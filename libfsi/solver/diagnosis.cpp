@@ -56,8 +56,7 @@ Solver::Term Solver::holder(Real dt) const {
   Term term = Term::convection;
   if (bodies_.empty()) return term;
   if (const Real part = dt / elastic_dt(); part > most) most = part, term = Term::elasticity;
-  constexpr Real strain = 0.5;
-  if (const Real part = dt / strain_dt(strain); part > most) term = Term::strain;
+  if (const Real part = dt / strain_dt(solid::strain_max); part > most) term = Term::strain;
   return term;
 }
 

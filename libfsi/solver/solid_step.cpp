@@ -1,5 +1,7 @@
 // What a step does with the solids: how they are put in, carried, strained, and push.
 
+#include "libfsi/solver/solid_step.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,6 +37,25 @@ void require_place(const Body& body, const std::deque<Body>& others, const Mesh&
   }
 }
 
+/// L = grad u on the listed owned cells; its halo.
+void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, const FlowAround& flow, const Mesh& mesh,
+           std::span<const Index> cells) {
+  gradient(L, u, flow.u_b, flow.u_stencil, mesh, cells);
+  mesh.halo.update(L);
+}
+
+/// u = the flow's, with what the fluxes tell on the known ones of the listed cells
+/// (solenoidal.hpp); owned and halo.
+void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
+                            const FlowAround& flow, std::span<const Index> cells) {
+  const solid::FlowSnapshot snapshot{flow.phi, flow.u, L, flow.pressure.cells, body.weights};
+  u.assign(flow.u);
+  for (const Index c : cells)
+    if (body.alpha_mid[c] >= solid::alpha_known)
+      u[c] = solid::velocity_of_fluxes(snapshot, body.alpha_mid, body.mesh, c);
+  body.mesh.halo.update(u);
+}
+
 }  // namespace
 
 void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
@@ -54,23 +75,7 @@ void Solver::put_solid(const Solid& solid) {
   Body& body = bodies_.back();
   body.t = state_.t;
   require_place(body, bodies_, mesh_);
-  modes_.stiff = modes_.stiff || (body.semi_implicit() && body.G > 0);
-  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
-  modes_.one_sided = modes_.one_sided || body.interface_gradient;
-  modes_.G = std::max(modes_.G, body.G);
-  if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
-  if (body.mu != physics_.mu_f) {
-    modes_.mu_varies = true;
-    // The transposed viscous term is explicit: backward Euler where it is large.
-    if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
-    const Real light = physics_.rho / std::min(body.rho, physics_.rho);
-    momentum_.bound_explicit_viscosity(light * std::max(body.mu, physics_.mu_f));
-  }
-  if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
-  if (body.two_viscosities) {
-    if (!stiff_) stiff_.emplace(mesh_);
-    momentum_.hold_old();
-  }
+  set_modes(body);
   alphas_.push_back(&body.alpha);
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());
@@ -81,24 +86,48 @@ void Solver::put_solid(const Solid& solid) {
   hold_backup();
 }
 
-void Solver::advance_interface(Body& body, const FaceField<Real>& phi, Real t) {
-  const Profile::Call call(profile_, calls_.advance_interface);
+void Solver::set_modes(const Body& body) {
+  modes_.stiff = modes_.stiff || (body.semi_implicit() && body.G > 0);
+  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
+  modes_.one_sided = modes_.one_sided || body.interface_gradient;
+  modes_.G = std::max(modes_.G, body.G);
+  modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});
+  if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
+  if (body.mu != physics_.mu_f) {
+    modes_.mu_varies = true;
+    // The transposed viscous term is explicit: backward Euler where it is large.
+    if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
+  }
+  if (modes_.mu_varies) {
+    Real most = physics_.mu_f;
+    for (const Body& one : bodies_) most = std::max(most, one.mu);
+    momentum_.bound_explicit_viscosity(physics_.rho / modes_.rho_least * most);
+  }
+  if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
+  if (body.two_viscosities) {
+    if (!stiff_) stiff_.emplace(mesh_);
+    momentum_.hold_old();
+  }
+}
+
+void advance_interface(Body& body, const FlowAround& flow, Real t) {
   body.dt = t - body.t;
   body.t = t;
   body.alpha_mid.assign(body.alpha);
   // A flux follows the plane of one cell, for a part of the step in which the surface stays in it:
   // in whole steps the way of a thin curved body depends on dt (doc/theory/interface.md).
   constexpr Real courant = 0.2, parts_max = 10;
-  const Real longest = vof::interface_dt(body.alpha, phi, courant, mesh_);
+  const Real longest = vof::interface_dt(body.alpha, flow.phi, courant, body.mesh);
   const int parts = static_cast<int>(std::clamp(std::ceil(body.dt / longest), Real{1}, parts_max));
   body.advected = {};
   for (int i = 0; i < parts; ++i) {
-    body.advected.add(vof::advect(body.alpha, body.interface, phi, state_.u, body.dt / parts, mesh_,
-                                  body.advect_scratch));
-    if (leaves_) body.count_out();
-    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
+    body.advected.add(vof::advect(body.alpha, body.interface, flow.phi, flow.u, body.dt / parts,
+                                  body.mesh, body.advect_scratch));
+    if (flow.leaves) body.count_out();
+    vof::reconstruct(body.interface, body.alpha, body.mesh, body.reconstruct_scratch,
+                     body.planes());
   }
-  for (Index c = 0; c < mesh_.n_cells; ++c)
+  for (Index c = 0; c < body.mesh.n_cells; ++c)
     body.alpha_mid[c] = (body.alpha_mid[c] + body.alpha[c]) / 2;
 }
 
@@ -119,12 +148,11 @@ void Solver::separate_bodies() {
     vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
 }
 
-void Solver::advect_pressure_jump(CellField<Real>& p, const Body& body) {
-  const Profile::Call call(profile_, calls_.advect_pressure_jump);
+void advect_pressure_jump(CellField<Real>& p, const Body& body) {
   if (!body.advects_pressure_jump()) return;
-  solid::advect_pressure_jump(p, body.alpha_mid, body.alpha, body.T(), body.G, mesh_,
+  solid::advect_pressure_jump(p, body.alpha_mid, body.alpha, body.T(), body.G, body.mesh,
                               body.band.cells());
-  mesh_.halo.update(p);
+  body.mesh.halo.update(p);
 }
 
 void Solver::clear_forces() {
@@ -133,22 +161,6 @@ void Solver::clear_forces() {
   rhie_chow_source_.fill(0);
   interface_L_f_.clear();
   for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_);
-}
-
-void Solver::set_L(CellField<Tensor>& L, const CellField<Vec3>& u, std::span<const Index> cells) {
-  gradient(L, u, u_b_, u_stencil_, mesh_, cells);
-  mesh_.halo.update(L);
-}
-
-void Solver::set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body,
-                                    const CellField<Tensor>& L, std::span<const Index> cells) {
-  const solid::FlowSnapshot snapshot{state_.phi, state_.u, L, projection_.stencil().cells,
-                                     weights_};
-  u.assign(state_.u);
-  for (const Index c : cells)
-    if (body.alpha_mid[c] >= solid::alpha_known)
-      u[c] = solid::velocity_of_fluxes(snapshot, body.alpha_mid, mesh_, c);
-  mesh_.halo.update(u);
 }
 
 void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& L) {
@@ -165,16 +177,15 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
   }
 }
 
-void Solver::transport_elastic(Body& body, CellField<Tensor>& L, const State& state) {
-  const Profile::Call call(profile_, calls_.transport_elastic);
+void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
-  const solid::Contact contact{u_b_, body.touched};
-  const solid::FlowSnapshot snapshot{.phi = state.phi,
-                                     .u = by_flux ? by_flux_->u : state.u,
-                                     .L = by_flux ? by_flux_->L : L,
-                                     .stencil = projection_.stencil().cells,
-                                     .weights = weights_,
+  const solid::Contact contact{flow.u_b, body.touched};
+  const solid::FlowSnapshot snapshot{.phi = flow.phi,
+                                     .u = by_flux ? flow.by_flux->u : flow.u,
+                                     .L = by_flux ? flow.by_flux->L : L,
+                                     .stencil = flow.pressure.cells,
+                                     .weights = body.weights,
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
                                      .wave_speed = std::sqrt(body.G / body.rho),
@@ -184,24 +195,23 @@ void Solver::transport_elastic(Body& body, CellField<Tensor>& L, const State& st
         k.mark(body.strain_fraction());
         const auto cells = k.strain_cells();
         if (by_flux) {
-          body.set_touched(cells, momentum_.boundary().open);
-          set_velocity_of_fluxes(by_flux_->u, body, L, cells);
-          set_L(by_flux_->L, by_flux_->u, cells);
-        } else if (!needs_L()) {
-          set_L(L, state.u, cells);
+          body.set_touched(cells, flow.open);
+          set_velocity_of_fluxes(flow.by_flux->u, body, L, flow, cells);
+          set_L(flow.by_flux->L, flow.by_flux->u, flow, body.mesh, cells);
+        } else if (!flow.has_L) {
+          set_L(L, flow.u, flow, body.mesh, cells);
         }
         if (one_sided) {
           auto& kink = *body.kink_profile;
-          kink.set(body.interface, weights_);
-          one_sided->apply(L, state.u, u_b_,
+          kink.set(body.interface, body.weights);
+          one_sided->apply(L, flow.u, flow.u_b,
                            {body.alpha, kink.normal, kink.solid_side, kink.fluid_side}, cells);
-          one_sided->set_strain(L, state.u, u_b_, body.alpha, cells);
+          one_sided->set_strain(L, flow.u, flow.u_b, body.alpha, cells);
         }
         body.strain = k.transport(body.strain_fraction(), snapshot, body.dt, body.grad);
       },
       body.kinematics);
   body.update_B();
-  if (one_sided) take_interface_gradient(body, L);
 }
 
 void Solver::mix_viscosity(FaceField<Real>& mu) {
@@ -222,61 +232,98 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
   flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
 }
 
-void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
-  const Profile::Call call(profile_, calls_.add_elastic_force);
+void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
+                       const CellField<Tensor>& L, const FlowAround& flow) {
   const solid::ElasticState elastic{body.T(), body.alpha, body.extended() ? &body.alpha_f : nullptr,
                                     &body.normal_f, &body.mirror};
-  PressureStencil& stencil = projection_.stencil();
-  body.elastic_force.apply(force, rhie_chow_source_, elastic, weights_, stencil, body.band,
+  body.elastic_force.apply(force, rhie_chow_source, elastic, body.weights, flow.pressure, body.band,
                            body.grad);
   if (body.two_viscosities) {
     auto& [traction, normal, height] = *body.two_viscosities;
-    vof::cell_plane(normal, height, body.alpha, body.interface, mesh_, body.band.cells());
-    mesh_.halo.update(normal, body.band.listed());
-    traction.apply(force, rhie_chow_source_,
-                   {state_.u, L_, L_f_, body.T(), body.alpha, body.alpha_f, body.normal_f, normal,
-                    height, mu_},
-                   weights_, stencil, body.band);
+    vof::cell_plane(normal, height, body.alpha, body.interface, body.mesh, body.band.cells());
+    body.mesh.halo.update(normal, body.band.listed());
+    traction.apply(force, rhie_chow_source,
+                   {flow.u, L, flow.L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal,
+                    height, flow.mu},
+                   body.weights, flow.pressure, body.band);
   }
   if (body.body_force)
-    body.body_force->apply(force, rhie_chow_source_,
-                           body.alpha_line ? *body.alpha_line : body.alpha_f, stencil, body.band);
+    body.body_force->apply(force, rhie_chow_source,
+                           body.alpha_line ? *body.alpha_line : body.alpha_f, flow.pressure,
+                           body.band);
 }
 
-void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt) {
-  const Profile::Call call(profile_, calls_.add_semi_implicit);
-  for (Body& body : bodies_) add_semi_implicit(kappa, force, body, dt);
-  if (!stiff_) return;
-  stiff_->assign(kappa);
-  for (const Body& body : bodies_)
-    if (body.two_viscosities)
-      body.two_viscosities->traction.add_semi_implicit(*stiff_, body.alpha_f, body.band);
-}
-
-void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
-                               Real dt) {
+void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
+                       CellField<Tensor>& L, const FlowAround& flow, Real dt) {
   if (!body.semi_implicit()) return;
-  if (!needs_L()) {
-    gradient(L_, state_.u, u_b_, u_stencil_, mesh_, body.band.cells());
-    mesh_.halo.update(L_, body.band.listed());
+  if (!flow.has_L) {
+    gradient(L, flow.u, flow.u_b, flow.u_stencil, body.mesh, body.band.cells());
+    body.mesh.halo.update(L, body.band.listed());
   }
   // A map is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body.kinematics);
   const solid::ElasticTerms terms{
       .lambda = body.lambda,
       .alpha = body.alpha_f,
-      .u = state_.u,
-      .L = L_,
+      .u = flow.u,
+      .L = L,
       .fraction = body.alpha,
       .G = body.G,
       .rho = body.rho,
       .mu_s = map ? 0 : body.mu,
       .dt = dt,
-      .rho_least = std::min(body.rho, physics_.rho),
       .kink = !map,
       .one_sided = body.interface_gradient.has_value(),
-      .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr};
-  body.semi_implicit_elasticity.apply(kappa, force, terms, weights_, body.band);
+      .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
+      .rho_least = flow.rho_least};
+  body.semi_implicit_elasticity.apply(kappa, force, terms, body.weights, body.band);
+}
+
+FlowAround Solver::flow_around() {
+  return {.u = state_.u,
+          .phi = state_.phi,
+          .u_b = u_b_,
+          .open = momentum_.boundary().open,
+          .u_stencil = u_stencil_,
+          .pressure = projection_.stencil(),
+          .L_f = L_f_,
+          .mu = mu_,
+          .by_flux = by_flux_ ? &*by_flux_ : nullptr,
+          .rho_least = modes_.rho_least,
+          .has_L = needs_L(),
+          .leaves = leaves_};
+}
+
+void Solver::advance_interface(Body& body, Real t) {
+  const Profile::Call call(profile_, calls_.advance_interface);
+  fsi::advance_interface(body, flow_around(), t);
+}
+
+void Solver::advect_pressure_jump(CellField<Real>& p, const Body& body) {
+  const Profile::Call call(profile_, calls_.advect_pressure_jump);
+  fsi::advect_pressure_jump(p, body);
+}
+
+void Solver::transport_elastic(Body& body, CellField<Tensor>& L) {
+  const Profile::Call call(profile_, calls_.transport_elastic);
+  fsi::transport_elastic(body, L, flow_around());
+  if (body.interface_gradient) take_interface_gradient(body, L);
+}
+
+void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
+  const Profile::Call call(profile_, calls_.add_elastic_force);
+  fsi::add_elastic_force(force, rhie_chow_source_, body, L_, flow_around());
+}
+
+void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt) {
+  const Profile::Call call(profile_, calls_.add_semi_implicit);
+  const FlowAround flow = flow_around();
+  for (Body& body : bodies_) fsi::add_semi_implicit(kappa, force, body, L_, flow, dt);
+  if (!stiff_) return;
+  stiff_->assign(kappa);
+  for (const Body& body : bodies_)
+    if (body.two_viscosities)
+      body.two_viscosities->traction.add_semi_implicit(*stiff_, body.alpha_f, body.band);
 }
 
 }  // namespace fsi

@@ -22,6 +22,7 @@
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
+#include "libfsi/solver/solid_step.hpp"
 #include "libfsi/vof/separate.hpp"
 
 namespace fsi {
@@ -121,13 +122,18 @@ class Solver {
   /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
   Real overlap() const { return separation_ ? separation_->overlap() : 0; }
   const Physics& physics() const { return physics_; }
-  /// Of the cells, by their fractions; none where all solids are as dense as the fluid.
-  const CellField<Real>* density() const { return heavy_ ? &heavy_->density.of_cell() : nullptr; }
+  /// None where all solids are as dense as the fluid.
+  const flow::Density* density() const { return heavy_ ? &heavy_->density : nullptr; }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
   const BoundaryField<Real>& p_b() const { return p_b_; }
+  /// Viscosity at the faces, of the last step.
+  const FaceField<Real>& mu() const { return mu_; }
+  const FaceWeights& weights() const { return weights_; }
+  /// Force per volume on fluid and solid; empty where there is none.
+  const std::function<Vec3(const Vec3&, Real)>& driving_force() const { return driving_force_; }
   /// What is given at an opening in the middle of the last step, behind its load's answer.
   /// Errors: Error{input} where that patch is none.
   Real opening_pressure(const std::string& patch) const;
@@ -143,13 +149,13 @@ class Solver {
 
  private:
   // The calls of a step: doc/theory/step.md. What each sets stands first.
-  void advance_interface(Body& body, const FaceField<Real>& phi, Real t);
+  void advance_interface(Body& body, Real t);
   void advect_pressure_jump(CellField<Real>& p, const Body& body);
   void separate_bodies();
   void set_pressure_gradient(CellField<Vec3>& grad_p, const State& state);
   void set_velocity_gradient(CellField<Tensor>& L, const State& state);
   void clear_forces();
-  void transport_elastic(Body& body, CellField<Tensor>& L, const State& state);
+  void transport_elastic(Body& body, CellField<Tensor>& L);
   void mix_viscosity(FaceField<Real>& mu);
   void mix_density();
   void add_elastic_force(CellField<Vec3>& force, Body& body);
@@ -163,18 +169,12 @@ class Solver {
   void check(const State& state);
   /// phi_1 of the mean velocity and the answers of loads are those of the density.
   void renew_responses();
-  /// What one body adds to them.
-  void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body, Real dt);
+  /// What the calls on bodies read of the flow.
+  FlowAround flow_around();
   /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
   void set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t);
   /// Between cells whose L is that of one side of the solid's surface L_f_ is its mean.
   void take_interface_gradient(const Body& body, const CellField<Tensor>& L);
-  /// L = grad u on the listed owned cells; its halo.
-  void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, std::span<const Index> cells);
-  /// u = the flow's, with what the fluxes tell on the known ones of the listed cells
-  /// (solenoidal.hpp); owned and halo.
-  void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
-                              std::span<const Index> cells);
   /// What may end a step: the equation whose limit is passed, or what was thrown.
   enum class Term {
     none,
@@ -211,7 +211,10 @@ class Solver {
     bool flux_strain = false;  ///< the face flux strains some solid
     bool one_sided = false;    ///< some solid's L is of one side of its surface
     Real G = 0;                ///< the largest
+    Real rho_least = std::numeric_limits<Real>::max();  ///< of fluid and solids
   };
+  /// What a body just put in asks for.
+  void set_modes(const Body& body);
   /// Whether the momentum equation needs the velocity gradient in all cells.
   bool needs_L() const {
     return weights_.uneven || momentum_.reads_L() || modes_.mu_varies || modes_.one_sided;
@@ -266,12 +269,6 @@ class Solver {
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<CellField<Real>*> alphas_;       // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
-  /// What strains a solid by the flux: velocity with what the fluxes tell besides, its gradient.
-  struct StrainByFlux {
-    explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
-    CellField<Vec3> u;
-    CellField<Tensor> L;
-  };
   std::optional<StrainByFlux> by_flux_;
   bool leaves_ = false;  // whether a solid may leave the mesh
   std::optional<Backup> backup_;

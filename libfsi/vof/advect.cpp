@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/field/band.hpp"
+#include "libfsi/operators/least_squares.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/vof/face_fraction.hpp"
-#include "libfsi/vof/stencil.hpp"
 
 namespace fsi::vof {
 namespace {
@@ -18,15 +20,6 @@ constexpr int max_rounds = 100;  // each carries an excess one cell further
 enum Mark : std::uint8_t { none = 0, active = 1, inside = 2 };
 
 bool is_whole(Real alpha) { return alpha == 0 || alpha == 1; }
-
-/// Value beyond face f from cell c; a boundary face has none: its cell's own.
-Index beyond(const Mesh& mesh, Index f, Index c) {
-  if (f >= mesh.n_internal) return c;
-  return mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f];
-}
-
-/// +1 where the face's normal leaves c, -1 where it enters.
-Real sign(const Mesh& mesh, Index f, Index c) { return mesh.owner[f] == c ? 1 : -1; }
 
 /// The cell the flux comes from; -1 at an inflow boundary.
 Index upwind(const Mesh& mesh, Index f, Real flux) {
@@ -54,7 +47,8 @@ void find_faces(const CellField<Real>& alpha, const Mesh& mesh, AdvectScratch& s
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (alpha[c] == 0) continue;
     for (const Index f : mesh.cell_faces[c]) {
-      mark_face(f, alpha[c], alpha[beyond(mesh, f, c)], f >= mesh.n_internal, s);
+      const Index n = beyond(mesh, f, c);
+      mark_face(f, alpha[c], alpha[n < 0 ? c : n], n < 0, s);
     }
   }
   for (const Index f : s.rim) {
@@ -85,7 +79,7 @@ void interface_speed(const Interface& interface, const CellField<Vec3>& u, const
                      AdvectScratch& s) {
   for (const Index c : interface.cells) {
     const Piece& p = interface.piece[c];
-    const Tensor L = gradient_at(u, least_squares(mesh, c), mesh, c);
+    const Tensor L = slope_at(u, inverse_moments(mesh, c), mesh, c);
     s.speed[c] = dot(p.n_hat, u[c] + dot(L, p.centre - mesh.C[c]));
   }
   mesh.halo.update(s.speed);
@@ -114,7 +108,7 @@ Real updated(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt, 
              const AdvectScratch& s, Index c) {
   Real sum = 0;
   for (const Index f : mesh.cell_faces[c]) {
-    sum += sign(mesh, f, c) * (s.solid[f] - alpha[c] * (phi[f] * dt));
+    sum += outward(mesh, f, c) * (s.solid[f] - alpha[c] * (phi[f] * dt));
   }
   return alpha[c] - sum / mesh.V[c];
 }
@@ -178,14 +172,11 @@ void add_divergence(Sum& sum, const CellField<Real>& alpha, const FaceField<Real
 
 AdvectScratch::AdvectScratch(const Mesh& mesh)
     : solid(mesh),
+      rim(faces_between_ranks(mesh)),
       face_marked(static_cast<std::size_t>(mesh.n_faces), none),
       cell_marked(static_cast<std::size_t>(mesh.n_owned), 0),
       speed(mesh),
-      share(mesh) {
-  for (Index f = 0; f < mesh.n_internal; ++f) {
-    if (mesh.owner[f] >= mesh.n_owned || mesh.neighbour[f] >= mesh.n_owned) rim.push_back(f);
-  }
-}
+      share(mesh) {}
 
 AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const FaceField<Real>& phi,
                     const CellField<Vec3>& u, Real dt, const Mesh& mesh, AdvectScratch& s) {

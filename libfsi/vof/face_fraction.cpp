@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "libfsi/geometry/cut.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::vof {
 
@@ -106,11 +107,9 @@ void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellFiel
     Vec3 sum, on_surface;
     int faces = 0;
     for (const Index f : mesh.cell_faces[c]) {
-      if (f >= mesh.n_internal) continue;
-      const bool owner = mesh.owner[f] == c;
-      const Index n = owner ? mesh.neighbour[f] : mesh.owner[f];
-      if (interface.piece[n].area > 0 || !(std::abs(alpha[n] - alpha[c]) > 0.5)) continue;
-      sum += (owner == (alpha[c] > alpha[n]) ? 1 : -1) * mesh.Sf[f];
+      const Index n = beyond(mesh, f, c);
+      if (n < 0 || interface.piece[n].area > 0 || !(std::abs(alpha[n] - alpha[c]) > 0.5)) continue;
+      sum += (alpha[c] > alpha[n] ? 1 : -1) * outward(mesh, f, c) * mesh.Sf[f];
       on_surface += mesh.face_centre(f, c);
       ++faces;
     }

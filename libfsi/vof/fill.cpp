@@ -124,11 +124,10 @@ struct Change {
   Real smooth = 0, bent = 0;
 };
 
-/// Area or volume of the shape in the piece; `error` gains the change by the last division. A piece
-/// that the surface may graze unseen is divided until it is smaller than the tolerance itself.
+/// The piece divided at the middles of its edges.
 template <class Rule>
-Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, int depth,
-             const FillAccuracy& accuracy, Change& error) {
+std::array<Piece<Rule>, Rule::children> children(const Images& distance,
+                                                 const Piece<Rule>& parent) {
   std::array<Vec3, Rule::corners + Rule::middles> x;
   std::array<Real, Rule::corners + Rule::middles> value;
   std::ranges::copy(parent.x, x.begin());
@@ -138,8 +137,6 @@ Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, 
     x[Rule::corners + e] = (parent.x[Rule::edges[e][0]] + parent.x[Rule::edges[e][1]]) / 2;
   }
   std::array<Piece<Rule>, Rule::children> child;
-  Real sum = 0;
-  bool unseen = false, bent = false;
   for (std::size_t k = 0; k < Rule::children; ++k) {
     std::array<Vec3, Rule::corners> corners;
     std::array<Real, Rule::corners> values;
@@ -147,8 +144,21 @@ Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, 
       corners[i] = x[Rule::child[k][i]], values[i] = value[Rule::child[k][i]];
     }
     child[k] = piece<Rule>(distance, corners, values);
-    sum += child[k].solid;
-    unseen |= child[k].grazed, bent |= child[k].bent;
+  }
+  return child;
+}
+
+/// Area or volume of the shape in the piece; `error` gains the change by the last division. A piece
+/// that the surface may graze unseen is divided until it is smaller than the tolerance itself.
+template <class Rule>
+Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, int depth,
+             const FillAccuracy& accuracy, Change& error) {
+  const auto child = children(distance, parent);
+  Real sum = 0;
+  bool unseen = false, bent = false;
+  for (const Piece<Rule>& c : child) {
+    sum += c.solid;
+    unseen |= c.grazed, bent |= c.bent;
   }
   const Real change = sum - parent.solid;
   const bool settled =

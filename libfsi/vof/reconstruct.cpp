@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/vof/stencil.hpp"
+#include "libfsi/field/band.hpp"
+#include "libfsi/operators/least_squares.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::vof {
 namespace {
 
 // A gradient this small against what it should be has no direction.
 constexpr Real degenerate = 1e-6;
-
-bool has_interface(Real alpha) { return alpha > interface_eps && alpha < 1 - interface_eps; }
 
 /// Owned cells with an interface, and all owned cells that touch one.
 void find_cells(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScratch& s) {
@@ -22,13 +22,13 @@ void find_cells(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScrat
     if (c < mesh.n_owned && !s.marked[c]) s.marked[c] = 1, s.near.push_back(c);
   };
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    if (!has_interface(alpha[c])) continue;
+    if (!is_cut(alpha[c])) continue;
     s.cells.push_back(c);
     mark(c);
     for (const Index n : mesh.cell_neighbours[c]) mark(n);
   }
   for (Index c = mesh.n_owned; c < mesh.n_cells; ++c) {
-    if (!has_interface(alpha[c])) continue;
+    if (!is_cut(alpha[c])) continue;
     for (const Index n : s.halo_neighbours[c - mesh.n_owned]) mark(n);
   }
 }
@@ -37,11 +37,11 @@ void find_cells(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScrat
 void first_normals(const CellField<Real>& alpha, const Mesh& mesh, ReconstructScratch& s) {
   s.fit.resize(s.cells.size()), s.normal.resize(s.cells.size());
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
-    s.fit[i] = least_squares(mesh, s.cells[i]);
-    const Vec3 g = gradient_at(alpha, s.fit[i], mesh, s.cells[i]);
+    const Index c = s.cells[i];
+    s.fit[i] = inverse_moments(mesh, c);
+    const Vec3 g = slope_at(alpha, s.fit[i], mesh, c);
     const Real size = norm(g);
-    const Real width = std::pow(mesh.V[s.cells[i]], 1.0 / mesh.dim);
-    s.normal[i] = size * width > interface_eps * degenerate ? g / -size : Vec3{};
+    s.normal[i] = size * cell_size(mesh, c) > interface_eps * degenerate ? g / -size : Vec3{};
   }
 }
 
@@ -71,14 +71,14 @@ void reconstruct_distance(const Interface& interface, const Mesh& mesh, Reconstr
       continue;
     }
     Real sum = 0, total = 0;
-    for (Index k = mesh.cell_neighbours.offset[c]; k < mesh.cell_neighbours.offset[c + 1]; ++k) {
-      const Piece& p = interface.piece[mesh.cell_neighbours.index[k]];
-      if (!(p.area > 0)) continue;
-      const Vec3 d = x - p.centre - mesh.translation[mesh.cell_neighbour_shift[k]];
+    for_vertex_images(c, mesh, [&](Index k, const Vec3& t) {
+      const Piece& p = interface.piece[k];
+      if (!(p.area > 0)) return;
+      const Vec3 d = x - p.centre - t;
       const Real to_plane = dot(p.n_hat, d);
       const Real w = to_plane * to_plane / norm2(d);
       sum += w * to_plane, total += w;
-    }
+    });
     s.distance[c] = total > 0 ? sum / total : 0;
   }
   mesh.halo.update(s.distance);
@@ -96,7 +96,7 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
     if (norm2(s.normal[i]) == 0) continue;
-    const Vec3 g = gradient_at(s.distance, s.fit[i], mesh, c);
+    const Vec3 g = slope_at(s.distance, s.fit[i], mesh, c);
     const Real size = norm(g);
     if (!(size > degenerate)) continue;
     const Vec3 n = g / size;
@@ -118,22 +118,10 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
 }  // namespace
 
 ReconstructScratch::ReconstructScratch(const Mesh& mesh)
-    : distance(mesh), marked(static_cast<std::size_t>(mesh.n_owned), 0), cell(mesh.dim) {
-  auto& offset = halo_neighbours.offset;
-  offset.assign(static_cast<std::size_t>(mesh.n_cells - mesh.n_owned) + 1, 0);
-  const auto each = [&](auto&& visit) {
-    for (Index c = 0; c < mesh.n_owned; ++c) {
-      for (const Index n : mesh.cell_neighbours[c]) {
-        if (n >= mesh.n_owned) visit(n - mesh.n_owned, c);
-      }
-    }
-  };
-  each([&](Index h, Index) { ++offset[h + 1]; });
-  for (std::size_t h = 1; h < offset.size(); ++h) offset[h] += offset[h - 1];
-  halo_neighbours.index.resize(offset.back());
-  std::vector<Index> next(offset.begin(), offset.end() - 1);
-  each([&](Index h, Index c) { halo_neighbours.index[next[h]++] = c; });
-}
+    : halo_neighbours(cells_around_halo(mesh)),
+      distance(mesh),
+      marked(static_cast<std::size_t>(mesh.n_owned), 0),
+      cell(mesh.dim) {}
 
 ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
                               ReconstructScratch& s, const ReconstructAccuracy& accuracy) {

@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/field/fraction.hpp"
 #include "libfsi/geometry/cut.hpp"
 #include "libfsi/mesh/mesh.hpp"
 
 namespace fsi::vof {
-
-/// A cell has an interface where alpha lies in (eps, 1 - eps).
-inline constexpr Real interface_eps = 1e-8;
 
 /// The plane in one cell.
 struct Piece {

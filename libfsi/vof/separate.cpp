@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/field/band.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::vof {
 namespace {
@@ -20,16 +22,11 @@ Real room(std::span<CellField<Real>* const> alphas, Index c) {
   return std::max(Real{0}, 1 - sum(alphas, c));
 }
 
-Index beyond(const Mesh& mesh, Index f, Index c) {
-  return mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f];
-}
-
 }  // namespace
 
-Separation::Separation(const Mesh& mesh, std::size_t bodies) : mesh_(mesh) {
+Separation::Separation(const Mesh& mesh, std::size_t bodies)
+    : mesh_(mesh), rim_(faces_between_ranks(mesh)) {
   for (std::size_t i = 0; i < bodies; ++i) rate_.emplace_back(mesh);
-  for (Index f = 0; f < mesh.n_internal; ++f)
-    if (std::max(mesh.owner[f], mesh.neighbour[f]) >= mesh.n_owned) rim_.push_back(f);
 }
 
 void Separation::offer(std::span<CellField<Real>* const> alphas, Index c) {
@@ -40,8 +37,8 @@ void Separation::offer(std::span<CellField<Real>* const> alphas, Index c) {
     if (alpha[c] <= 0) continue;
     Real open = 0, least = std::numeric_limits<Real>::max();
     for (const Index f : mesh_.cell_faces[c]) {
-      if (f >= mesh_.n_internal) continue;
       const Index n = beyond(mesh_, f, c);
+      if (n < 0) continue;
       const Real r = room(alphas, n);
       if (alpha[n] <= 0 || r <= 0) continue;
       open += r, least = std::min(least, mesh_.V[n]);
@@ -83,7 +80,7 @@ bool Separation::apply(std::span<CellField<Real>* const> alphas, std::span<const
       if (c == last) continue;  // listed once a body
       last = c;
       for (const Index f : mesh_.cell_faces[c])
-        if (f < mesh_.n_internal) add_from(alphas, c, beyond(mesh_, f, c));
+        if (const Index n = beyond(mesh_, f, c); n >= 0) add_from(alphas, c, n);
     }
     for (const Index f : rim_) {
       const Index P = mesh_.owner[f], N = mesh_.neighbour[f];

@@ -20,6 +20,8 @@ RUNS = {
             "-time_end 0.01 -output_interval 0 -solid_kinematics reference_map"),
     "openings": ("fsi-vessel", "bifurcation", ("bifurcation", 3, {"n": 4}),
                  "-time_end 0.005 -output_interval 0"),
+    "bodies": ("fsi-shear", "two_discs", ("shear", 2, {"n": 4, "H": 10}),
+               "-time_end 0.01 -output_interval 0"),
     "advect": ("fsi-advect", "vortex", ("cavity", 2, {"n": 16}), "-time_end 0.05 -output_interval 0.05"),
 }
 OPENINGS = ("inlet", "left", "right")  # patches of the third
@@ -62,9 +64,9 @@ def head(path):
         return set(next(csv.reader(file)))
 
 
-def compare(what, written, names):
+def compare(what, written, names, patches=OPENINGS):
     """Both ways; names: as described, NAME for a patch."""
-    full = {name.replace("NAME", patch) for name in names for patch in OPENINGS}
+    full = {name.replace("NAME", patch) for name in names for patch in patches}
     for name in sorted(written - full):
         check(False, f"{what}: {name} is written and not described")
     for name in sorted(full - written):
@@ -91,16 +93,20 @@ def main():
     sections = described(page)
     out = {name: run(source, drivers, folder, name) for name in RUNS}
     solvers = [out[name] for name in RUNS if name != "advect"]
-    for table in ("flow.csv", "solid.csv"):
-        compare(table, set().union(*(head(os.path.join(d, table)) for d in solvers)), sections[table])
+    compare("flow.csv", set().union(*(head(os.path.join(d, "flow.csv")) for d in solvers)),
+            sections["flow.csv"])
+    tables = [os.path.join(d, name) for d in solvers for name in os.listdir(d)
+              if re.fullmatch(r"solid.*\.csv", name)]
+    compare("solid.csv", set().union(*map(head, tables)), sections["solid.csv"])
     compare("solid.csv of fsi-advect", head(os.path.join(out["advect"], "solid.csv")),
             sections["solid.csv of fsi-advect"])
     for name, folder in out.items():
         with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
             compare(f"summary.json of {name}", set(json.load(file)), sections["summary.json"])
     files = set().union(*(os.listdir(folder) for folder in out.values()))
-    compare("files", {re.sub(r"_\d{4}\b", "_NNNN", name) for name in files},
-            sections["Files of a run"])
+    files = {re.sub(r"_\d{4}\b", "_NNNN", name) for name in files}
+    compare("files", {re.sub(r"^solid_(left|right)", "solid_NAME", name) for name in files},
+            sections["Files of a run"], ("NAME",))
     check_limits(source, page)
     print(f"{len(failures)} differences between doc/reference/files.md and {len(RUNS)} runs")
     return 1 if failures else 0

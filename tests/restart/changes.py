@@ -68,9 +68,10 @@ def main():
                  "-solid_law gent (was neo_hookean)", "-solid_law_limit 20 (was not given)", *back)
     check_notice(go_on(*changed, "-solid_law", "gent", "-solid_law_limit", "10"),
                  "-solid_law_limit 10 (was 20)")
-    refused = go_on(*changed, "-solid_kinematics", "left_cauchy_green", code=2)
-    check(len(refused) == 1 and "kinematics=log_conformation" in refused[0] and
-          "kinematics=left_cauchy_green" in refused[0], f"refused: {refused}")
+    for other in ("left_cauchy_green", "reference_map"):
+        refused = go_on(*changed, "-solid_kinematics", other, code=2)
+        check(len(refused) == 1 and "kinematics=log_conformation" in refused[0] and
+              f"kinematics={other}" in refused[0], f"refused: {refused}")
     return 1 if failures else 0
 
 

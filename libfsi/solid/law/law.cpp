@@ -29,12 +29,8 @@ Real fastest(const Jet& W, const std::array<Real, 3>& b) {
 
 }  // namespace
 
-SymTensor adjugate(const SymTensor& B) {
-  return {B.yy * B.zz - B.yz * B.yz, B.xz * B.yz - B.xy * B.zz, B.xy * B.yz - B.xz * B.yy,
-          B.xx * B.zz - B.xz * B.xz, B.xy * B.xz - B.xx * B.yz, B.xx * B.yy - B.xy * B.xy};
-}
-
 Response response(const Jet& W, const SymTensor& B) {
+  // The adjugate is B^-1 where det B = 1, and finite for any B.
   return {(2 * W.d1) * B - (2 * W.d2) * adjugate(B), fastest(W, eigen(B).value), W.f};
 }
 

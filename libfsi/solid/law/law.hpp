@@ -13,9 +13,6 @@
 
 namespace fsi::solid {
 
-/// B with det B = 1: its inverse B^-1, by cofactors, finite for any B. Its trace is I2.
-SymTensor adjugate(const SymTensor& B);
-
 /// What a law makes of one B, all over G.
 struct Response {
   SymTensor T;       ///< tau = G dev(T)

@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <tuple>
 
+#include "libfsi/mesh/columns.hpp"
+#include "libfsi/mesh/divide.hpp"
 #include "tests/unit/mesh/block.hpp"
 
 namespace fsi::test {
@@ -163,18 +168,89 @@ TEST(Division, EveryRankHasItsShareOfALoadWhereverItGoes) {
   MeshOptions options;
   options.along = {1, 0, 0};
   options.load = [](const Vec3& c) { return norm(c - Vec3{0.3, 0.5, 0.5}) < 0.3 ? 1.0 : 0.0; };
-  {
+  for (const CellType type : {CellType::hex, CellType::tet}) {
+    block.type = type;
     const TextFile file(BlockText(block).text());
     options.file = file.path();
     const Mesh mesh = read_mesh(options);
     const Real cells = global_max(static_cast<Real>(mesh.n_owned)) * ranks();
     EXPECT_LT(cells, 1.06 * static_cast<Real>(mesh.n_global));
-    for (const Real x : {0.3, 0.5, 0.7}) EXPECT_LT(share_of_ball(mesh, x), 1.3);
+    for (const Real x : {0.3, 0.5, 0.7}) EXPECT_LT(share_of_ball(mesh, x), 1.15);
   }
-  block.type = CellType::tet;  // no rows: only where the load is told to be
+}
+
+/// A block of tets whose points lie in no rows.
+Block block_without_rows() {
+  Block block;
+  block.type = CellType::tet, block.n = {32, 20, 20};
+  block.moved = [](const Vec3& x) {
+    const auto shake = [&](Real seed) {
+      const Real r = 1e4 * std::sin(seed + 12.9898 * x.x + 78.233 * x.y + 37.719 * x.z);
+      return 0.4 * (r - std::floor(r) - 0.5);
+    };
+    return x + Vec3{shake(1) / 32, shake(2) / 20, shake(3) / 20};
+  };
+  return block;
+}
+
+/// Cells that share a face.
+Graph faces_of(const CellList& list) {
+  Graph graph;
+  const std::vector<Index> mate = match_faces(list);
+  for (Index c = 0; c < list.n_cells(); ++c) {
+    for (int f = 0; f < shape_of(list.types[c]).faces; ++f) {
+      if (mate[half_of(c, f)] >= 0) graph.neighbours.push_back(Half(mate[half_of(c, f)]).cell);
+    }
+    graph.start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+/// Most over mean of the cells of this kind that a part has.
+template <class Kind>
+Real excess(const std::vector<std::int32_t>& part, int parts, const Kind& counts) {
+  std::vector<Real> held(static_cast<std::size_t>(parts), 0);
+  for (std::size_t c = 0; c < part.size(); ++c) held[part[c]] += counts(static_cast<Index>(c));
+  const Real total = std::accumulate(held.begin(), held.end(), 0.0);
+  return *std::ranges::max_element(held) * parts / total;
+}
+
+TEST(Division, ManyPartsOfTetsShareATorusWhereverItGoes) {
+  const TextFile file(BlockText(block_without_rows()).text());
+  const CellList list = check_mesh(read_gmsh(file.path()), {});
+  const auto torus_at = [&](Real x) {  // tilted by 45 degrees
+    return [&list, x](Index c) {
+      const Vec3 way = middle(list, c) - Vec3{x, 0.5, 0.5};
+      const Real height = (way.x + way.y) / std::numbers::sqrt2;
+      return std::hypot(std::sqrt(dot(way, way) - height * height) - 0.25, height) < 0.09;
+    };
+  };
+  Graph graph = faces_of(list);
+  graph.column = columns_of(list, {1, 0, 0});
+  for (Index c = 0; c < list.n_cells(); ++c) graph.load.push_back(torus_at(0.35)(c) ? 8 : 0);
+  for (const int parts : {8, 16}) {
+    const std::vector<std::int32_t> part = divide(graph, parts);
+    EXPECT_LT(excess(part, parts, [](Index) { return 1; }), 1.05);
+    for (const Real x : {0.35, 0.45, 0.55, 0.65}) {
+      EXPECT_LT(excess(part, parts, torus_at(x)), 1.3) << parts << " parts, torus at " << x;
+    }
+  }
+}
+
+TEST(Division, ColumnsDoNotDependOnTheAxisLengthAndHoldCellsInLine) {
+  Block block;
+  block.n = {8, 4, 4};
   const TextFile file(BlockText(block).text());
-  options.file = file.path();
-  EXPECT_LT(share_of_ball(read_mesh(options), 0.3), 1.15);
+  const CellList list = check_mesh(read_gmsh(file.path()), {});
+  const auto columns = columns_of(list, {1, 0, 0});
+  EXPECT_EQ(columns, columns_of(list, {5, 0, 0}));
+  std::map<std::int32_t, std::vector<Vec3>> cells;
+  for (Index c = 0; c < list.n_cells(); ++c) cells[columns[c]].push_back(middle(list, c));
+  EXPECT_EQ(cells.size(), 16U);
+  for (const auto& [column, centres] : cells) {
+    EXPECT_EQ(centres.size(), 8U);
+    for (const Vec3& x : centres) EXPECT_LT(norm(cross(x - centres[0], {1, 0, 0})), 1e-12);
+  }
 }
 
 TEST(Division, FewerCellsThanRanks) {

@@ -11,7 +11,6 @@
 #include <numeric>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/solid/quadratic_fit.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -177,26 +176,6 @@ TEST(InterfaceGradient, TakesTheKinkOutOfCutCells) {
   EXPECT_GE(before[0], 0.05);
   EXPECT_LE(now[0], before[0] / 3);
   EXPECT_LE(now[1], before[1] / 3);
-}
-
-// A conic through the cell and its five neighbours is a quadratic that vanishes in all of them:
-// near one, what the fit makes of their velocities is arbitrary.
-TEST(QuadraticFit, GivesNothingWhereItAmplifiesErrors) {
-  const auto gradient_off_circle = [](Real off) {
-    solid::QuadraticFit fit(2, 1);
-    for (const Real angle : {0.4, 1.3, 2.1, 4.0, 5.2}) {
-      // on a circle through the cell
-      const Vec3 r{std::cos(angle) - 1, std::sin(angle) + (angle > 5 ? off : 0), 0};
-      fit.add_value(r, {r.x * r.x - 2 * r.x * r.y + 3 * r.y, 0, 0});
-    }
-    return fit.gradient();
-  };
-  EXPECT_FALSE(gradient_off_circle(0.0));
-  EXPECT_FALSE(gradient_off_circle(0.02));
-  const auto told = gradient_off_circle(1.2);
-  ASSERT_TRUE(told);
-  EXPECT_NEAR(told->xx, 0, 1e-10);
-  EXPECT_NEAR(told->xy, 3, 1e-10);
 }
 
 TEST(InterfaceGradient, QuadsAreNoSimplices) {

@@ -1,0 +1,12 @@
+#pragma once
+// What a fraction of solid counts as.
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// A cell has an interface where alpha lies in (eps, 1 - eps).
+inline constexpr Real interface_eps = 1e-8;
+inline bool is_cut(Real alpha) { return alpha > interface_eps && alpha < 1 - interface_eps; }
+
+}  // namespace fsi

@@ -1,0 +1,54 @@
+#pragma once
+// What lies around a cell and on both sides of a face.
+
+#include <cmath>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
+
+namespace fsi {
+
+/// Calls f(k, t) for the cells k that share a vertex with owned cell c, which sees them moved by t.
+template <class Function>
+void for_vertex_images(Index c, const Mesh& mesh, Function&& f) {
+  const Csr& around = mesh.cell_neighbours;
+  for (Index i = around.offset[c]; i < around.offset[c + 1]; ++i)
+    f(around.index[i], mesh.translation[mesh.cell_neighbour_shift[i]]);
+}
+
+/// Calls f(k, r) for the same cells, r from the centre of c to that of k as c sees it.
+template <class Function>
+void for_vertex_neighbours(Index c, const Mesh& mesh, Function&& f) {
+  for_vertex_images(c, mesh, [&](Index k, const Vec3& t) { f(k, mesh.C[k] - mesh.C[c] + t); });
+}
+
+/// The cell beyond face f from cell c; -1: the boundary.
+inline Index beyond(const Mesh& mesh, Index f, Index c) {
+  if (f >= mesh.n_internal) return -1;
+  return mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f];
+}
+
+/// +1 where the normal of face f leaves cell c, -1 where it enters.
+inline Real outward(const Mesh& mesh, Index f, Index c) { return mesh.owner[f] == c ? 1 : -1; }
+
+/// (1 - lambda) q_P + lambda q_N of internal face f, of a field or of any q[cell].
+template <class Values>
+auto face_mean(const Values& q, Index f, const FaceWeights& weights, const Mesh& mesh) {
+  const Real lambda = weights.lambda[f];
+  return (1 - lambda) * q[mesh.owner[f]] + lambda * q[mesh.neighbour[f]];
+}
+
+/// lambda q_P + (1 - lambda) q_N of internal face f: the mean of the flux, in which a cell has the
+/// weight of its own part of the way (flow/projection.hpp).
+template <class Values>
+auto mirror_mean(const Values& q, Index f, const FaceWeights& weights, const Mesh& mesh) {
+  const Real lambda = weights.lambda[f];
+  return lambda * q[mesh.owner[f]] + (1 - lambda) * q[mesh.neighbour[f]];
+}
+
+/// V^(1/dim): the length of a cell.
+inline Real cell_size(const Mesh& mesh, Index c) {
+  return mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]);
+}
+
+}  // namespace fsi

@@ -1,0 +1,50 @@
+#pragma once
+// The balance of energy of a run: what is stored against what was put in.
+
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+
+/// Collective. sum_c rho u^2 V / 2, rho by the fractions of the cell.
+Real kinetic_energy(const Solver& solver);
+
+/// Stored are the kinetic energy and the elastic energy of the solids. What walls, openings,
+/// forces, the solids' weight in the fluid and the mean velocity's gradient do on the fluid and
+/// solid is the work; viscosity takes some of it away. So stored - work, from the start on, can
+/// only fall, and what it rises by the scheme has made:
+///
+///   made = max over t of (E(t) - E(0) - W(t)),  at least 0
+///   dW/dt = sum_b {mu g (u_b - u_P) . u_b + alpha_b (tau . S) . u_b - p_b phi - rho |u_b|^2 phi /
+///   2}
+///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
+///
+/// over the boundary faces b, S and phi outward, the viscous and elastic part where the velocity is
+/// given; by the trapezoidal rule in time.
+class EnergyBalance {
+ public:
+  /// Collective. Begins with the solver's state.
+  explicit EnergyBalance(const Solver& solver);
+
+  /// Collective. After a step of length dt.
+  void add(const Solver& solver, Real dt);
+
+  Real stored() const { return stored_; }
+  Real work() const { return work_; }
+  Real made() const { return made_; }
+  /// That in parts of the largest energy that was stored and of the work: what a run may have made
+  /// and be right.
+  Real part_made() const;
+
+  /// What a restart goes on from; part of a checkpoint.
+  void list(io::Snapshot& snapshot);
+
+ private:
+  Real energy(const Solver& solver) const;
+  Real power(const Solver& solver);
+  Real power_of_boundary(const Solver& solver);
+
+  BoundaryField<Vec3> u_b_;
+  Real first_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
+};
+
+}  // namespace fsi
