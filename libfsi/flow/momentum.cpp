@@ -74,7 +74,7 @@ void Momentum::bound_explicit_viscosity(Real mu_max) {
     for (const Index f : mesh_.cell_faces[c]) sum += weights_.g[f];
     spread = std::max(spread, sum / mesh_.V[c]);
   }
-  rate_ = mu_max / rho_ * global_max(spread);
+  rate_ = std::max(rate_, mu_max / rho_ * global_max(spread));
 }
 
 // In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit

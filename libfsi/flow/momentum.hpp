@@ -83,7 +83,7 @@ class Momentum {
   /// theta_f of the last `predict`, what goes with its u*.
   const FaceField<Real>& theta_taken() const { return theta_f_; }
   /// Collective. There is a transposed viscous term of a viscosity up to mu_max: raises theta_at
-  /// and extrapolates less of the rest. Before the first step.
+  /// and extrapolates less of the rest. Before the first step; the largest of several holds.
   void bound_explicit_viscosity(Real mu_max);
   /// The velocity before the last step, part of a checkpoint, and at the boundary, to be set from
   /// it before `predict`.

@@ -150,13 +150,15 @@ void Output::open_tables() {
   flow_.emplace(directory + "/flow.csv", names(first[0].entries), t_row);
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const std::string& name = solver_.bodies()[i].name;
-    solids_.emplace_back(directory + (name.empty() ? "/solid.csv" : "/solid_" + name + ".csv"),
-                         names(first[i + 1].entries), t_row);
+    auto& table = solids_.emplace_back();
+    if (solver_.bodies()[i].gone != 0) continue;  // its rows stay as they are
+    table.emplace(directory + (name.empty() ? "/solid.csv" : "/solid_" + name + ".csv"),
+                  names(first[i + 1].entries), t_row);
   }
   if (restart) {
     records_ = before;  // they must be found as they were
   } else {
-    for (std::size_t i = 0; i < records_.size(); ++i) solids_[i].row(values(first[i + 1].entries));
+    for (std::size_t i = 0; i < records_.size(); ++i) solids_[i]->row(values(first[i + 1].entries));
     samples_.hold(std::move(first));
   }
   if (case_.output.field_interval <= 0) return;
@@ -297,7 +299,7 @@ void Output::write_rows(const Limit& limit, Real dt) {
   for (const Real t : times) {
     flow_->row(samples_.row(0, now[0], t));
     for (std::size_t i = 1; i < now.size(); ++i)
-      if (!now[i].entries.empty()) solids_[i - 1].row(samples_.row(i, now[i], t));
+      if (!now[i].entries.empty()) solids_[i - 1]->row(samples_.row(i, now[i], t));
   }
   samples_.hold(near ? std::move(now) : std::vector<Row>{});
 }

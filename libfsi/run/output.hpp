@@ -80,7 +80,7 @@ class Output {
   std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
   Schedule field_, checkpoint_;
   std::optional<io::Table> flow_;
-  std::vector<io::Table> solids_;  // of the bodies
+  std::vector<std::optional<io::Table>> solids_;  // of the bodies; none where it had left
   std::optional<io::FieldWriter> fields_;
   Stopwatch watch_;
   Forecast forecast_;

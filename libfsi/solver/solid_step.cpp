@@ -136,7 +136,7 @@ void Solver::separate_bodies() {
   if (!separation_) return;
   shared_.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (const Index c : bodies_[i].band.core()) {
+    for (const Index c : bodies_[i].band.cells()) {  // of before the motion, so with those around
       const auto holds = [&](const Body& body) { return body.alpha[c] > 0; };
       const auto first = std::ranges::find_if(bodies_, holds);
       // listed once, by the first that holds the cell

@@ -44,8 +44,9 @@ void Separation::offer(std::span<CellField<Real>* const> alphas, Index c) {
       open += r, least = std::min(least, mesh_.V[n]);
     }
     if (open <= 0) continue;
-    // A cell takes from all its faces; what it cannot take now stays for the next round.
-    constexpr Real most = 0.25;
+    // A cell takes of every body from all its faces, six at the most, and is not to overflow; what
+    // it cannot take now stays for the next round.
+    const Real most = 1 / (6 * static_cast<Real>(alphas.size()));
     const Real given = mesh_.V[c] * (total - 1) * alpha[c] / total;
     rate_[i][c] = std::min(given / open, most * least);
     givers_.push_back(c);

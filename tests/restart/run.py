@@ -3,8 +3,8 @@
 
     run.py SOURCE DRIVERS FOLDER RANKS [MPIEXEC...]
 
-The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, a heavy torus, and a sphere
-in a vessel between windkessels, coarse.
+The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, a heavy torus,
+a sphere in a vessel between windkessels, and one that leaves the mesh, coarse.
 On the same ranks the tables (but for the columns of wall time) and the last checkpoint are equal byte
 for byte.
 """
@@ -34,6 +34,9 @@ CASES = {
                "-gravity", "0,-2,0", "-solid_density", "3"]),
     "vessel": ("fsi-vessel", "bifurcation", ["-3", "bifurcation", "n=6"],
                ["-time_end", "0.8", "-checkpoint_interval", "0.05", "-output_interval", "0.2"]),
+    # nothing of the solid is left in the second half
+    "leaves": ("fsi-vessel", "bend", ["-3", "bend", "n=5"],
+               ["-solid_arc_length", "2.6", "-end_when_empty", "false", "-checkpoint_interval", "0.1"]),
 }
 KILLS = 5
 

@@ -86,7 +86,16 @@ TEST(Bodies, ViscositiesMixByTheirFractions) {
   scene.solver.put_solid(disc("thick", {0.4, 0.5, 0}, 1, 0.15));
   scene.solver.put_solid(disc("thin", {0.85, 0.5, 0}, 1, 0.06));
   for (int i = 0; i < 20; ++i) ASSERT_GT(scene.solver.advance(0.02), 0);
-  EXPECT_NEAR(place(scene.solver.bodies()[0]).volume, place(scene.solver.bodies()[1]).volume, 1e-4);
+  const auto in_the_middle_of = [&](const Body& body) {
+    Index nearest = 0;
+    const Vec3 centre = place(body).centre;
+    for (Index f = 0; f < scene.mesh.n_internal; ++f)
+      if (norm(scene.mesh.Cf[f] - centre) < norm(scene.mesh.Cf[nearest] - centre)) nearest = f;
+    return scene.solver.mu()[nearest];
+  };
+  if (ranks() > 1) return;  // a face of the whole mesh is looked for
+  EXPECT_NEAR(in_the_middle_of(scene.solver.bodies()[0]), 0.15, 1e-12);
+  EXPECT_NEAR(in_the_middle_of(scene.solver.bodies()[1]), 0.06, 1e-12);
 }
 
 TEST(Bodies, RefusesASecondOfTheSameNameOrPlace) {

@@ -48,5 +48,29 @@ TEST(Separate, MovesWhatIsTooMuchAndKeepsTheVolumes) {
   }
 }
 
+// Four cells that hold too much of three bodies lie around one with little room: it is filled from
+// all of them at once, and no more than full.
+TEST(Separate, FillsNoCellFromAllItsFacesTooFar) {
+  const Mesh mesh = test::read_box({.n = {9, 9, 0}});
+  std::array<CellField<Real>, 3> bodies{CellField<Real>(mesh), CellField<Real>(mesh),
+                                        CellField<Real>(mesh)};
+  std::vector<Index> cells;
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    const Real x = std::abs(mesh.C[c].x - 0.5) * 9, y = std::abs(mesh.C[c].y - 0.5) * 9;
+    const bool middle = x + y<0.5, beside = x + y> 0.5 && x + y < 1.5;
+    for (auto& alpha : bodies) alpha[c] = middle ? 0.3 : beside ? 0.5 : 0;
+    if ((middle || beside) && c < mesh.n_owned) cells.push_back(c);
+  }
+  vof::Separation separation(mesh, 3);
+  const std::array alphas{&bodies[0], &bodies[1], &bodies[2]};
+  EXPECT_TRUE(separation.apply(alphas, cells));
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (std::abs(mesh.C[c].x - 0.5) + std::abs(mesh.C[c].y - 0.5) < 0.05) {
+      const Real S = bodies[0][c] + bodies[1][c] + bodies[2][c];
+      EXPECT_GT(S, 0.95);
+      EXPECT_LE(S, 1 + 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace fsi
