@@ -19,17 +19,19 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
+/// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f all that is implicit.
+Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
+  const Real implicit =
+      terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
+  const Real rho = terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
+  return t_f / (rho + 4 * t_f * implicit / norm2(mesh.d[f]));
+}
+
 }  // namespace
 
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
-  const auto damped = [&](Index f, Real dt) {
-    const Real implicit =
-        terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
-    const Real rho = terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
-    return dt / (rho + 4 * dt * implicit / norm2(mesh.d[f]));
-  };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
   constexpr Real courant = 0.02, whole = 1e-7;  // balance of a face where the stress acts fully
   const auto time = [&](Index f, const Vec3& u_f) {
@@ -53,7 +55,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     }
     if (terms.density != nullptr)
       brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
-    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f, time(f, u_f)) * brace;
+    phi[f] = dot(u_f, mesh.Sf[f]) + damped(terms, mesh, f, time(f, u_f)) * brace;
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index b = f - mesh.n_internal, P = mesh.owner[f], i = weights.place[f];
@@ -63,7 +65,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
     if (terms.density != nullptr)
       brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
-    phi[f] += damped(f, terms.dt) * brace;
+    phi[f] += damped(terms, mesh, f, terms.dt) * brace;
   }
 }
 

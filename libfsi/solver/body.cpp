@@ -49,20 +49,24 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       semi_implicit_elasticity(mesh, weights),
       grad(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
-      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      specks(static_cast<std::size_t>(mesh.n_owned)) {
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
+  hold_parts(physics);
+  alpha_mid.assign(alpha);
+  std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
+  resume();
+}
+
+void Body::hold_parts(const Physics& physics) {
   if (!law.B_itself()) T_of_law.emplace(mesh);
-  specks.resize(static_cast<std::size_t>(mesh.n_owned));
-  if (solid.kinematics == KinematicsKind::log_conformation && solid::has_simplices(mesh))
+  if (std::holds_alternative<solid::LogConformation>(kinematics) && solid::has_simplices(mesh))
     interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
   if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
-  alpha_mid.assign(alpha);
-  std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
-  resume();
 }
 
 void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {

@@ -55,6 +55,8 @@ struct Body {
   /// Collective. The same for a reference map: xi_0(x) is where the particle at x came from.
   /// Errors: Error{input} with other kinematics.
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
+  /// Makes the parts that the law, the kinematics, the viscosity and the weight ask for.
+  void hold_parts(const Physics& physics);
   /// Collective. Renews what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
