@@ -35,6 +35,8 @@ struct Column {
   Real middle = 0.53;
   Real ratio = 5;
   KinematicsKind kinematics = KinematicsKind::log_conformation;
+  Real above = 0;  ///< ratio of a second layer that lies on the first; 0: there is none
+  Real gap = 0;    ///< of fluid between them
 };
 
 Speeds still(const Column& column) {
@@ -51,8 +53,17 @@ Speeds still(const Column& column) {
   solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.4, 200}), {0, column.middle, 0}),
                     .G = 1,
                     .mu = 0.01,
+                    .name = "layer",
                     .kinematics = column.kinematics,
                     .rho = column.ratio});
+  const Real second = column.middle + 0.2 + column.gap + 0.1;
+  if (column.above > 0)
+    solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.2, 200}), {0, second, 0}),
+                      .G = 0.5,
+                      .mu = 0.01,
+                      .name = "above",
+                      .kinematics = column.kinematics,
+                      .rho = column.above});
   constexpr int steps = 50;
   Speeds most;
   for (int i = 0; i < steps; ++i) {
@@ -66,6 +77,10 @@ Speeds still(const Column& column) {
 TEST(Density, LeavesAStillColumnAtRest) {
   for (const Column& column :
        {Column{.mesh = "quads"}, Column{.mesh = "quads", .ratio = 0.5},
+        Column{.mesh = "quads", .ratio = 0.1}, Column{.mesh = "quads", .ratio = 1.1},
+        Column{.mesh = "quads", .ratio = 20},
+        Column{.mesh = "triangles", .simplex = true, .ratio = 0.1},
+        Column{.mesh = "triangles", .simplex = true, .ratio = 20},
         Column{.mesh = "quads", .middle = 0.2},
         Column{.mesh = "quads", .kinematics = KinematicsKind::reference_map},
         Column{.mesh = "triangles", .simplex = true},
@@ -74,6 +89,25 @@ TEST(Density, LeavesAStillColumnAtRest) {
     const Speeds s = still(column);
     std::printf("still column, %s, ratio %g, middle %g: cells %.2e, faces %.2e\n", column.mesh,
                 column.ratio, column.middle, s.cell, s.face);
+    EXPECT_LE(s.cell, 1e-10);
+    EXPECT_LE(s.face, 1e-10);
+  }
+}
+
+/// Two solids of different densities, the light one below or above, apart or in touch.
+TEST(Density, LeavesTwoLayersAtRest) {
+  for (const Column& column :
+       {Column{.mesh = "quads", .middle = 0.32, .above = 0.5, .gap = 0.11},
+        Column{.mesh = "quads", .middle = 0.32, .ratio = 0.5, .above = 5, .gap = 0.11},
+        Column{.mesh = "quads", .middle = 0.32, .above = 0.5},
+        Column{.mesh = "quads", .middle = 0.32, .ratio = 0.5, .above = 5},
+        Column{.mesh = "triangles", .simplex = true, .middle = 0.32, .above = 0.5, .gap = 0.11},
+        Column{.mesh = "triangles", .simplex = true, .middle = 0.32, .above = 0.5},
+        Column{.mesh = "hexes", .depth = 4, .middle = 0.32, .above = 0.5},
+        Column{.mesh = "tets", .simplex = true, .depth = 4, .middle = 0.32, .above = 0.5}}) {
+    const Speeds s = still(column);
+    std::printf("two layers, %s, ratios %g and %g, gap %g: cells %.2e, faces %.2e\n", column.mesh,
+                column.ratio, column.above, column.gap, s.cell, s.face);
     EXPECT_LE(s.cell, 1e-10);
     EXPECT_LE(s.face, 1e-10);
   }
