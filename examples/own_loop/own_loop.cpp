@@ -3,7 +3,8 @@
 //   gmsh -2 -setnumber n 32 meshes/cavity.geo -o cavity.msh
 //   mine/own-loop -mesh cavity.msh
 // The numbers beside the calls are those of doc/theory/step.md. What one disc of the fluid's
-// viscosity on an orthogonal mesh between walls does not need is left out: (2), (7), (10), (14).
+// viscosity on an orthogonal mesh between walls does not need is left out: (2), (7), (8), (11),
+// (12) and (16).
 
 #include <libfsi/fsi.hpp>
 
@@ -54,7 +55,7 @@ fsi::RunStatus own_loop() {
                                .L_f = L_f,
                                .mu = mu,
                                .by_flux = &by_flux,
-                               .rho = physics.rho};
+                               .rho_least = physics.rho};
   const flow::MomentumTerms momentum_terms{.u_b = u_b,
                                            .u_b_new = u_b_new,
                                            .grad_p = grad_p,
@@ -91,14 +92,14 @@ fsi::RunStatus own_loop() {
     force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa);
 
     fsi::transport_elastic(disc, L, around);                    // (6)
-    fsi::add_elastic_force(force, source, disc, L, around);     // (8)
-    fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (9)
+    fsi::add_elastic_force(force, source, disc, L, around);     // (9)
+    fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (10)
 
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
-    momentum.predict(u, momentum_terms, dt);                                      // (11)
-    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (12)
+    momentum.predict(u, momentum_terms, dt);                                      // (13)
+    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (14)
     flow::divergence(divergence, phi, mesh);
-    projection.project(phi, q, grad_q, none, 0);  // (13)
+    projection.project(phi, q, grad_q, none, 0);  // (15)
     for (Index c = 0; c < mesh.n_cells; ++c) {
       u[c] -= grad_q[c];
       p[c] += physics.rho / dt * q[c];

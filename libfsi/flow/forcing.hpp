@@ -15,6 +15,9 @@ class Forcing {
  public:
   Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity);
 
+  /// Collective. The response of a density: a uniform force accelerates a solid by less or more.
+  void renew(Projection& projection, const Density& density, Real absolute);
+
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
   void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt);
   /// <phi>; collective.
@@ -31,6 +34,8 @@ class Forcing {
   CellField<Vec3> u_1_;
   FaceField<Real> phi_1_;
   Real mean_1_ = 1;
+  CellField<Real> potential_;
+  BoundaryField<Real> potential_b_;
 };
 
 }  // namespace fsi::flow

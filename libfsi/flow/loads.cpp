@@ -6,20 +6,28 @@
 namespace fsi::flow {
 
 Loads::Loads(const Mesh& mesh, Projection& projection, Openings& openings, Real rho)
-    : mesh_(mesh), rho_(rho) {
-  constexpr Real round_off = 1e-13;
-  BoundaryField<Real> q_b(mesh);
+    : mesh_(mesh), rho_(rho), q_b_(mesh) {
   for (Openings::One& opening : openings.all()) {
     if (!opening.load.any()) continue;
-    Response& r = responses_.emplace_back(&opening, FaceField<Real>(mesh), CellField<Real>(mesh),
-                                          CellField<Vec3>(mesh));
-    q_b.fill(0);
-    for (Index f = opening.patch.begin; f < opening.patch.end; ++f) q_b[f - mesh.n_internal] = 1;
-    projection.project(r.phi, r.q, r.grad_q, q_b, round_off * mesh.total_volume);
+    responses_.emplace_back(&opening, FaceField<Real>(mesh), CellField<Real>(mesh),
+                            CellField<Vec3>(mesh));
   }
   const std::size_t n = responses_.size();
   S_.resize(n * n), A_.resize(n * n), pi_.resize(n), flow_.resize(n), sums_.resize(n);
   lines_.resize(n);
+  constexpr Real round_off = 1e-13;
+  renew(projection, round_off * mesh.total_volume);
+}
+
+void Loads::renew(Projection& projection, Real absolute) {
+  const std::size_t n = responses_.size();
+  for (Response& r : responses_) {
+    const Patch& patch = r.opening->patch;
+    q_b_.fill(0);
+    for (Index f = patch.begin; f < patch.end; ++f) q_b_[f - mesh_.n_internal] = 1;
+    r.phi.fill(0);
+    projection.project(r.phi, r.q, r.grad_q, q_b_, absolute);
+  }
   for (std::size_t k = 0; k < n; ++k) {
     set_flow_rates(responses_[k].phi);
     for (std::size_t j = 0; j < n; ++j) S_[j * n + k] = flow_[j];

@@ -21,6 +21,9 @@ class Loads {
   /// Collective. One projection for each loaded opening. openings: must outlive it.
   Loads(const Mesh& mesh, Projection& projection, Openings& openings, Real rho);
 
+  /// Collective. The responses to the projection as it stands, to be set anew where the density
+  /// is.
+  void renew(Projection& projection, Real absolute);
   /// Collective. After a projection over dt: adds the loads' part to phi (every face), q and grad_q
   /// (owned and halo); the loaded openings' pressures, stored pressures and trends go on.
   void answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real t, Real dt);
@@ -49,6 +52,7 @@ class Loads {
   std::vector<Real> flow_;    // [responses] Q of the last flux asked for
   std::vector<Sum> sums_;     // scratch
   std::vector<Line> lines_;   // scratch
+  BoundaryField<Real> q_b_;   // scratch
 };
 
 }  // namespace fsi::flow

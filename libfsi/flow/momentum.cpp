@@ -93,11 +93,15 @@ void Momentum::set_theta(Real theta_now) {
   }
 }
 
-void Momentum::assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real dt) {
+void Momentum::assemble(const MomentumTerms& terms, Real dt) {
   const Index dim = mesh_.dim;
+  const FaceField<Real>&mu = terms.mu, &kappa = terms.kappa;
   VectorMatrix& A = system_.matrix();
   for (Index c = 0; c < mesh_.n_owned; ++c)
-    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] = rho_ * mesh_.V[c] / dt;
+    for (Index i = 0; i < dim; ++i) {
+      const Real rho = terms.rho ? (*terms.rho)[c][static_cast<int>(i)] : rho_;
+      A.diagonal[c * dim + i] = rho * mesh_.V[c] / dt;
+    }
   const auto add = [&](Index c, const Vec3& a) {
     if (c >= mesh_.n_owned) return;
     for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
@@ -133,7 +137,12 @@ Real Momentum::ab3_weight(const FaceField<Real>& phi, Real dt) const {
 void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   auto& [last, before, rest] = history_;
   const auto w = adams_bashforth(dt, dt_old, dt_before, ab3_weight(terms.phi, dt));
-  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= rho_ * (w[1] * last[c] + w[2] * before[c]);
+  const auto subtract = [&](Index c, const Vec3& rate) {
+    if (!terms.rho) return void(rhs_[c] -= rho_ * rate);
+    const Vec3& rho = (*terms.rho)[c];
+    rhs_[c] -= Vec3{rho.x * rate.x, rho.y * rate.y, rho.z * rate.z};
+  };
+  for (Index c = 0; c < mesh_.n_owned; ++c) subtract(c, w[1] * last[c] + w[2] * before[c]);
   before.assign(last);
   if (reads_L())
     convection_upwind(last, terms.phi, u, terms.u_b, terms.L, terms.L_f, weights_, mesh_,
@@ -141,7 +150,11 @@ void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& ter
   else
     convection(last, terms.phi, u, terms.u_b, terms.L_f, weights_, mesh_,
                scheme_ == Convection::symmetric);
-  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] -= (rho_ * w[0]) * last[c];
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    if (terms.rho)
+      subtract(c, w[0] * last[c]);
+    else
+      rhs_[c] -= (rho_ * w[0]) * last[c];
 }
 
 void Momentum::add_rest(const MomentumTerms& terms, Real dt) {
@@ -182,7 +195,7 @@ void Momentum::add_sources(const MomentumTerms& terms) {
 int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   const std::array now{steps_taken < damped_steps ? 1.0 : theta_at(dt), dt};
   if (assembled_[0] != now[0]) set_theta(now[0]);
-  if (terms.mu_varies || terms.stiff || assembled_ != now) assemble(terms.mu, terms.kappa, dt);
+  if (terms.mu_varies || terms.stiff || terms.rho || assembled_ != now) assemble(terms, dt);
   assembled_ = now;
 
   rhs_.fill({});

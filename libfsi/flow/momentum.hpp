@@ -35,7 +35,9 @@ struct MomentumTerms {
   bool mu_varies = false;        ///< in time and space
   bool stiff = false;            ///< kappa does; else it is zero for good
   const CellField<Vec3>& force;  ///< elastic force per volume
-  Vec3 body{};                   ///< uniform force per volume (mean-velocity forcing)
+  /// Density of the cells for each component, owned and halo; none: that of the fluid everywhere.
+  const CellField<Vec3>* rho = nullptr;
+  Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
 };
 
 /// The predictor [Matsumiya25] (12), second order in time (Adams-Bashforth of third order for
@@ -104,7 +106,7 @@ class Momentum {
   void add_rest(const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_sources(const MomentumTerms& terms);
-  void assemble(const FaceField<Real>& mu, const FaceField<Real>& kappa, Real dt);
+  void assemble(const MomentumTerms& terms, Real dt);
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
   Real extrapolated(Real dt) const;
 

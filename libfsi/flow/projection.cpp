@@ -19,16 +19,19 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
+/// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f all that is implicit.
+Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
+  const Real implicit =
+      terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
+  const Real rho = terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
+  return t_f / (rho + 4 * t_f * implicit / norm2(mesh.d[f]));
+}
+
 }  // namespace
 
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
-  const auto damped = [&](Index f, Real dt) {
-    const Real implicit =
-        terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
-    return dt / (terms.rho + 4 * dt * implicit / norm2(mesh.d[f]));
-  };
   // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
   constexpr Real courant = 0.02, whole = 1e-7;  // balance of a face where the stress acts fully
   const auto time = [&](Index f, const Vec3& u_f) {
@@ -50,7 +53,9 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
       u_f += dot(terms.L_f[i], weights.from_mirror(f, mesh));
       brace -= dot(terms.grad_p_f[i], weights.k[f]);
     }
-    phi[f] = dot(u_f, mesh.Sf[f]) + damped(f, time(f, u_f)) * brace;
+    if (terms.density != nullptr)
+      brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
+    phi[f] = dot(u_f, mesh.Sf[f]) + damped(terms, mesh, f, time(f, u_f)) * brace;
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index b = f - mesh.n_internal, P = mesh.owner[f], i = weights.place[f];
@@ -58,7 +63,9 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     if (open_face[b] == 0) continue;
     Real brace = dot(terms.grad_p[P], mesh.Sf[f]) - weights.g[f] * (terms.p_b[b] - terms.p[P]);
     if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
-    phi[f] += damped(f, terms.dt) * brace;
+    if (terms.density != nullptr)
+      brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
+    phi[f] += damped(terms, mesh, f, terms.dt) * brace;
   }
 }
 
@@ -80,26 +87,40 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
       open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
       adjustable_[f - mesh.n_internal] = prescribes_flow(conditions[i]) ? 1 : 0;
     }
-  Sum area, conductance;
-  for (Index b = 0; b < mesh.n_boundary(); ++b) {
+  Sum area;
+  for (Index b = 0; b < mesh.n_boundary(); ++b)
     if (adjustable_[b] != 0) area.add(norm(mesh.Sf[mesh.n_internal + b]));
-    if (open_face_[b] != 0) conductance.add(weights.g[mesh.n_internal + b]);
-  }
   adjustable_area_ = area.total();
-  conductance_ = conductance.total();
-
   FaceMatrix matrix(mesh);
-  for (Index f = 0; f < mesh.n_faces; ++f) {
-    const Index P = mesh.owner[f];
-    if (f < mesh.n_internal) {
-      matrix.off_diagonal[f] = -weights.g[f];
-      if (mesh.neighbour[f] < mesh.n_owned) matrix.diagonal[mesh.neighbour[f]] += weights.g[f];
-    } else if (open_face_[f - mesh.n_internal] == 0) {
+  set(matrix);
+  system_.assemble(matrix);
+}
+
+void Projection::set(FaceMatrix& matrix) {
+  std::ranges::fill(matrix.diagonal, 0);
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Index P = mesh_.owner[f];
+    const Real g = mobility(f) * weights_.g[f];
+    if (f < mesh_.n_internal) {
+      matrix.off_diagonal[f] = -g;
+      if (mesh_.neighbour[f] < mesh_.n_owned) matrix.diagonal[mesh_.neighbour[f]] += g;
+    } else if (open_face_[f - mesh_.n_internal] == 0) {
       continue;
     }
-    if (P < mesh.n_owned) matrix.diagonal[P] += weights.g[f];
+    if (P < mesh_.n_owned) matrix.diagonal[P] += g;
   }
-  system_.assemble(matrix);
+  Sum conductance;
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (const Index f = mesh_.n_internal + b; open_face_[b] != 0)
+      conductance.add(mobility(f) * weights_.g[f]);
+  conductance_ = conductance.total();
+}
+
+void Projection::set_density(const Density& density) {
+  density_ = &density;
+  if (!matrix_) matrix_.emplace(mesh_);
+  set(*matrix_);
+  system_.renew(*matrix_);
 }
 
 void Projection::set_face_gradient(const CellField<Real>& q, const BoundaryField<Real>& q_b) {
@@ -123,7 +144,7 @@ void Projection::balance_boundary(FaceField<Real>& phi) const {
     if (adjustable_[f - mesh_.n_internal] != 0) phi[f] -= excess * norm(mesh_.Sf[f]);
 }
 
-// b = -sum_f (phi_f - k . (grad q)_f), at openings less g q_b
+// b = -sum_f (phi_f - k . (grad q)_f), at openings less g q_b; k and g times rho_0 / rho_f
 void Projection::set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b) {
   std::fill(b_.begin(), b_.end(), 0.0);
   for (Index f = 0; f < mesh_.n_faces; ++f) {
@@ -131,25 +152,26 @@ void Projection::set_outflow(const FaceField<Real>& phi, const BoundaryField<Rea
     const bool internal = f < mesh_.n_internal;
     const bool open = !internal && open_face_[f - mesh_.n_internal] != 0;
     Real flux = phi[f];
-    if (i >= 0 && (internal || open)) flux -= dot(grad_f_[i], weights_.k[f]);
-    if (open) flux -= weights_.g[f] * q_b[f - mesh_.n_internal];
+    if (i >= 0 && (internal || open)) flux -= mobility(f) * dot(grad_f_[i], weights_.k[f]);
+    if (open) flux -= mobility(f) * weights_.g[f] * q_b[f - mesh_.n_internal];
     if (P < mesh_.n_owned) b_[P] -= flux;
     if (internal && mesh_.neighbour[f] < mesh_.n_owned) b_[mesh_.neighbour[f]] += flux;
   }
 }
 
-// phi = phi* - g (q_N - q_P) - k . (grad q)_f, with the grad q of the last right-hand side
+// phi = phi* - rho_0 / rho_f (g (q_N - q_P) + k . (grad q)_f), with the grad q of the last
+// right-hand side
 void Projection::subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
                                    const BoundaryField<Real>& q_b) const {
   for (Index f = 0; f < mesh_.n_internal; ++f)
-    phi[f] -= weights_.g[f] * (q[mesh_.neighbour[f]] - q[mesh_.owner[f]]);
+    phi[f] -= mobility(f) * weights_.g[f] * (q[mesh_.neighbour[f]] - q[mesh_.owner[f]]);
   for (Index b = 0; b < mesh_.n_boundary(); ++b)
     if (const Index f = mesh_.n_internal + b; open_face_[b] != 0)
-      phi[f] -= weights_.g[f] * (q_b[b] - q[mesh_.owner[f]]);
+      phi[f] -= mobility(f) * weights_.g[f] * (q_b[b] - q[mesh_.owner[f]]);
   for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
     const Index f = weights_.irregular[i];
     if (f < mesh_.n_internal || open_face_[f - mesh_.n_internal] != 0)
-      phi[f] -= dot(grad_f_[i], weights_.k[f]);
+      phi[f] -= mobility(f) * dot(grad_f_[i], weights_.k[f]);
   }
 }
 
@@ -162,7 +184,8 @@ void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
   const Real shift = -net.total() / conductance_;
   for (Index c = 0; c < mesh_.n_cells; ++c) q[c] += shift;
   for (Index b = 0; b < mesh_.n_boundary(); ++b)
-    if (open_face_[b] != 0) phi[mesh_.n_internal + b] += weights_.g[mesh_.n_internal + b] * shift;
+    if (const Index f = mesh_.n_internal + b; open_face_[b] != 0)
+      phi[f] += mobility(f) * weights_.g[f] * shift;
 }
 
 SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
@@ -170,14 +193,15 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   balance_boundary(phi);
   // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
   // sine of the angle: two digits are enough there.
-  constexpr Real loosened = 1e4;
+  constexpr Real loosened = 1e4, two_densities = 1e-2;
+  const Real last = density_ != nullptr ? two_densities : 1;
   q.fill(0);
   std::ranges::fill(grad_f_, Vec3{});
   SolveResult total;
   for (int corrector = 0; corrector <= correctors_; ++corrector) {
     set_outflow(phi, q_b);
     const SolveResult solve =
-        system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : 1);
+        system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : last);
     total.iterations += solve.iterations;
     total.residual = solve.residual;
     if (corrector < correctors_) set_face_gradient(q, q_b);
@@ -185,7 +209,27 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   subtract_gradient(phi, q, q_b);
   close_balance(phi, q);
   set_gradient(grad_q, q, q_b);
+  if (density_ != nullptr)
+    for (Index c = 0; c < mesh_.n_cells; ++c)
+      grad_q[c] = density_->rho_0() * density_->divided(grad_q[c], c);
   return total;
+}
+
+void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, const FluxTerms& terms,
+                  const FaceWeights& weights, const Mesh& mesh) {
+  for (Index f = 0; f < mesh.n_faces; ++f) {
+    const Index P = mesh.owner[f], i = weights.place[f];
+    const bool internal = f < mesh.n_internal;
+    phi[f] = 0;
+    if (!internal && open_face[f - mesh.n_internal] == 0) continue;
+    const Index N = internal ? mesh.neighbour[f] : P;
+    const Real lambda = internal ? weights.lambda[f] : 0;
+    const Vec3 mean = lambda * (*terms.force)[P] + (1 - lambda) * (*terms.force)[N];
+    const Real rise = (internal ? terms.p[N] : terms.p_b[f - mesh.n_internal]) - terms.p[P];
+    Real flux = dot(mean, mesh.Sf[f]) + weights.g[f] * (terms.rhie_chow_source[f] - rise);
+    if (i >= 0) flux -= dot(terms.grad_p_f[i], weights.k[f]);
+    phi[f] = terms.density->rho_0() / terms.density->of_face()[f] * flux;
+  }
 }
 
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh) {

@@ -1,10 +1,12 @@
 #pragma once
 // Face fluxes and the pressure correction.
 
+#include <optional>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/flow/density.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/operators/linear_system.hpp"
@@ -26,7 +28,9 @@ struct FluxTerms {
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
   Real rho = 1, dt = 0;
-  Real stress = 0;  ///< scale of the elastic stress; 0: there is none
+  const Density* density = nullptr;        ///< none: rho everywhere
+  const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
+  Real stress = 0;                         ///< scale of the elastic stress; 0: there is none
   Real flux_strain =
       0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
 };
@@ -45,14 +49,23 @@ struct FluxTerms {
 /// from cell to cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a
 /// step, no more than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| /
 /// |u_f|, gradually from none of c_f to 1e-7 of the stress: the jump at the surface of a solid
-/// would else leak through it with a flux in proportion to dt. Boundary: prescribed velocity, or
+/// would else leak through it with a flux in proportion to dt. With a density rho is that of the
+/// face, and what the cells make of all forces is taken out for what the face makes of them
+/// (flow/density.hpp): where everything moves with one acceleration U(u*) is right already, and
+/// this with the brace is zero. Boundary: prescribed velocity, or
 /// the same with p_b at openings. On return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
 
 /// Makes a flux divergence-free: Lap q = div phi*, phi = phi* - grad q . S, u = u* - grad q. q is
-/// dt / rho times the pressure increment. The matrix is constant: one set-up a run.
+/// dt / rho_0 times the pressure increment. The matrix is constant: one set-up a run. With a
+/// density
+///
+///   div(rho_0 / rho_f grad q) = div phi*,   u = u* - rho_0 grad q / D,
+///
+/// by conjugate gradients preconditioned with what the constant matrix was set up for: it needs as
+/// many iterations as rho varies, about the root of the largest over the least times as many.
 class Projection {
  public:
   /// correctors: extra solves for the non-orthogonal part, on meshes that have one.
@@ -65,6 +78,9 @@ class Projection {
   /// time. Errors: Error{numerics}.
   SolveResult project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
                       const BoundaryField<Real>& q_b, Real absolute);
+
+  /// Collective. Takes that density from now on, until it is renewed. It must outlive this.
+  void set_density(const Density& density);
 
   /// Collective. grad p, owned and halo, and at irregular faces (operators/gradient.hpp); p: owned
   /// and halo, p_b: at openings.
@@ -84,6 +100,12 @@ class Projection {
                          const BoundaryField<Real>& q_b) const;
   void balance_boundary(FaceField<Real>& phi) const;
   void close_balance(FaceField<Real>& phi, CellField<Real>& q) const;
+  /// With it the conductance of the openings.
+  void set(FaceMatrix& matrix);
+  /// rho_0 / rho_f; 1 without a density.
+  Real mobility(Index f) const {
+    return density_ != nullptr ? density_->rho_0() / density_->of_face()[f] : 1;
+  }
 
   const Mesh& mesh_;
   const FaceWeights& weights_;
@@ -91,13 +113,21 @@ class Projection {
   bool open_ = false;
   std::vector<char> open_face_, adjustable_;  // [n_boundary]
   Real adjustable_area_ = 0;
-  Real conductance_ = 0;  // sum of g over the openings of all ranks
+  Real conductance_ = 0;  // sum of g rho_0 / rho_f over the openings of all ranks
+  const Density* density_ = nullptr;
   PressureStencil stencil_;
   CellField<Vec3> first_;     // the plain gradient, on irregular meshes
   std::vector<Vec3> grad_f_;  // at irregular faces
   std::vector<Real> b_;
   LinearSystem system_;
+  std::optional<FaceMatrix> matrix_;  // with a density
 };
+
+/// phi_f = (rho_0 / rho_f) { U(force) . S + g c_f - (g (p_N - p_P) + k . (grad p)_f) }: the flux
+/// that forces and pressure make in a unit of time out of rest, times rho_0; 0 where the velocity
+/// is given. terms: p, its gradients, p_b, c_f, density and force are read.
+void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, const FluxTerms& terms,
+                  const FaceWeights& weights, const Mesh& mesh);
 
 /// div_c = sum_f phi_f / V of owned cells.
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);

@@ -21,20 +21,33 @@ struct LinearSystem::Handles {
   bool cycle = false;  ///< PETSc's own on BoomerAMG's levels
   Real relative_tolerance = 0;
   Mat matrix = nullptr;
+  Mat renewed = nullptr;  ///< where its values are not those the preconditioner was made of
   KSP solver = nullptr;
   Vec x = nullptr, b = nullptr;
   std::vector<PetscScalar> values;
   std::vector<Index> face;  // of every off-diagonal entry
 
   explicit Handles(const Mesh& m) : mesh(m) {}
+  /// Collective. Puts the values in.
+  void set(Mat to, const FaceMatrix& from) {
+    const std::size_t n = from.diagonal.size();
+    values.resize(n + face.size());
+    std::copy(from.diagonal.begin(), from.diagonal.end(), values.begin());
+    // A pinned singular system with a right-hand side of zero sum has the solution that vanishes
+    // in the pinned cell: summing all rows leaves a_00 x_0 = 0.
+    if (pinned && rank() == 0 && n > 0) values[0] *= 2;
+    for (std::size_t e = 0; e < face.size(); ++e) values[n + e] = from.off_diagonal[face[e]];
+    FSI_PETSC(MatSetValuesCOO(to, values.data(), INSERT_VALUES));
+  }
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;
   ~Handles() {
     // Nothing useful can be done with a code here, and a destructor must not throw.
-    static_cast<void>(KSPDestroy(&solver));  // layers: destructor
-    static_cast<void>(MatDestroy(&matrix));  // layers: destructor
-    static_cast<void>(VecDestroy(&x));       // layers: destructor
-    static_cast<void>(VecDestroy(&b));       // layers: destructor
+    static_cast<void>(KSPDestroy(&solver));   // layers: destructor
+    static_cast<void>(MatDestroy(&matrix));   // layers: destructor
+    static_cast<void>(MatDestroy(&renewed));  // layers: destructor
+    static_cast<void>(VecDestroy(&x));        // layers: destructor
+    static_cast<void>(VecDestroy(&b));        // layers: destructor
   }
 };
 
@@ -77,6 +90,26 @@ void set_properties(Mat matrix, bool null_space) {
   }
 }
 
+/// A matrix on the cell graph, without values; face: of every off-diagonal entry.
+Mat new_matrix(const Mesh& mesh, std::vector<Index>& face) {
+  const std::vector<PetscInt> row = global_rows(mesh);
+  std::vector<PetscInt> i(row.begin(), row.begin() + mesh.n_owned), j = i;
+  face.clear();
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    for (const auto& [c, other] :
+         {std::pair{mesh.owner[f], mesh.neighbour[f]}, std::pair{mesh.neighbour[f], mesh.owner[f]}})
+      if (c < mesh.n_owned) {
+        i.push_back(row[c]), j.push_back(row[other]);
+        face.push_back(f);
+      }
+  Mat matrix = nullptr;
+  FSI_PETSC(MatCreate(comm(), &matrix));
+  FSI_PETSC(MatSetSizes(matrix, mesh.n_owned, mesh.n_owned, PETSC_DETERMINE, PETSC_DETERMINE));
+  FSI_PETSC(MatSetType(matrix, MATAIJ));
+  FSI_PETSC(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+  return matrix;
+}
+
 void set_defaults(const std::string& prefix, Method method, KSP solver) {
   FSI_PETSC(KSPSetType(solver, KSPCG));
   FSI_PETSC(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
@@ -114,22 +147,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   h.null_space = singular && !h.pinned;
   h.relative_tolerance = relative_tolerance;
 
-  const std::vector<PetscInt> row = global_rows(mesh);
-  std::vector<PetscInt> i(row.begin(), row.begin() + mesh.n_owned), j = i;
-  for (Index f = 0; f < mesh.n_internal; ++f)
-    for (const auto& [c, other] :
-         {std::pair{mesh.owner[f], mesh.neighbour[f]}, std::pair{mesh.neighbour[f], mesh.owner[f]}})
-      if (c < mesh.n_owned) {
-        i.push_back(row[c]), j.push_back(row[other]);
-        h.face.push_back(f);
-      }
-  h.values.resize(i.size());
-
-  FSI_PETSC(MatCreate(comm(), &h.matrix));
-  FSI_PETSC(MatSetSizes(h.matrix, mesh.n_owned, mesh.n_owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  FSI_PETSC(MatSetType(h.matrix, MATAIJ));
-  FSI_PETSC(
-      MatSetPreallocationCOO(h.matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+  h.matrix = new_matrix(mesh, h.face);
   set_properties(h.matrix, h.null_space);
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.x));
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.b));
@@ -149,13 +167,7 @@ LinearSystem& LinearSystem::operator=(LinearSystem&&) noexcept = default;
 
 void LinearSystem::assemble(const FaceMatrix& matrix) {
   Handles& h = *handles_;
-  const std::size_t n = matrix.diagonal.size();
-  std::copy(matrix.diagonal.begin(), matrix.diagonal.end(), h.values.begin());
-  // A pinned singular system with a right-hand side of zero sum has the solution that vanishes in
-  // the pinned cell: summing all rows leaves a_00 x_0 = 0.
-  if (h.pinned && rank() == 0 && n > 0) h.values[0] *= 2;
-  for (std::size_t e = 0; e < h.face.size(); ++e) h.values[n + e] = matrix.off_diagonal[h.face[e]];
-  FSI_PETSC(MatSetValuesCOO(h.matrix, h.values.data(), INSERT_VALUES));
+  h.set(h.matrix, matrix);
   Mat lean = nullptr;  // a copy leaves behind the map from entries to their places
   FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
   FSI_PETSC(MatDestroy(&h.matrix));
@@ -164,6 +176,17 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   h.values = {}, h.face = {};
   if (h.cycle) cycle_on_levels(h.solver, h.null_space);
+}
+
+void LinearSystem::renew(const FaceMatrix& matrix) {
+  Handles& h = *handles_;
+  if (h.renewed == nullptr) {
+    h.renewed = new_matrix(h.mesh, h.face);
+    set_properties(h.renewed, h.null_space);
+  }
+  h.set(h.renewed, matrix);
+  FSI_PETSC(KSPSetReusePreconditioner(h.solver, PETSC_TRUE));
+  FSI_PETSC(KSPSetOperators(h.solver, h.renewed, h.matrix));
 }
 
 SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real absolute,

@@ -44,6 +44,9 @@ class LinearSystem {
 
   /// Collective. Sets the values, once for all: what another assembly would need is freed.
   void assemble(const FaceMatrix& matrix);
+  /// Collective, after `assemble`. Other values from now on; what a solve is preconditioned with
+  /// stays that of `assemble`, which costs iterations as the values of both differ, no set-up.
+  void renew(const FaceMatrix& matrix);
   /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
   /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
   /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.

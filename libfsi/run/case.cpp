@@ -42,6 +42,11 @@ Physics read_physics(Options& options) {
   physics.mu_f =
       options.real("fluid_viscosity", 0.01,
                    {.help = "dynamic viscosity of the fluid", .unit = viscosity, .positive = true});
+  physics.gravity = options.vec3(
+      "gravity", {},
+      {.help = "acceleration of fluid and solids; pressures are written without the part "
+               "fluid_density gravity . x that bears the fluid itself",
+       .unit = "length / time^2"});
   return physics;
 }
 
@@ -254,8 +259,10 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   for (const SolidSetup& s : setup.solids) {
     const std::string name =
         s.solid.name.empty() ? s.shape_name : s.solid.name + " (" + s.shape_name + ")";
-    std::printf("%s: density ratio 1, viscosity ratio %.4g, %.1f cells through its thickness of %g",
-                name.c_str(), s.solid.mu / p.mu_f, s.thickness / h, s.thickness);
+    const Real rho = s.solid.rho > 0 ? s.solid.rho : p.rho;
+    std::printf(
+        "%s: density ratio %.4g, viscosity ratio %.4g, %.1f cells through its thickness of %g",
+        name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, s.thickness / h, s.thickness);
     if (velocity != 0)
       std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
                   p.mu_f * velocity / (s.solid.G * length),

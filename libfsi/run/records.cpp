@@ -15,6 +15,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/run/taylor.hpp"
+#include "libfsi/solver/energy.hpp"
 
 namespace fsi {
 namespace {
@@ -22,14 +23,6 @@ namespace {
 const Patch* find(const Mesh& mesh, const std::string& name) {
   const auto at = std::ranges::find(mesh.patches, name, &Patch::name);
   return at == mesh.patches.end() ? nullptr : &*at;
-}
-
-Real kinetic_energy(const Solver& solver) {
-  const Mesh& mesh = solver.mesh();
-  Sum sum;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    sum.add(solver.physics().rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
-  return sum.total();
 }
 
 /// Length of a periodic channel along its axis; 0 where the mesh has no period along it.

@@ -68,12 +68,13 @@ KinematicsKind read_kinematics(Options& options, const std::string& of) {
 /// Sets G, mu and the acceleration.
 void read_material(Options& options, const std::string& of, const Physics& physics, Solid& solid) {
   const Real density = options.real(of + "density", physics.rho,
-                                    {.help = "density of the solid; so far that of the fluid alone",
+                                    {.help = "density of the solid, a tenth to twenty times that "
+                                             "of the fluid",
                                      .unit = "mass / volume",
                                      .positive = true});
-  require(density == physics.rho, "option -" + of +
-                                      "density: only a solid as dense as the fluid can be run so "
-                                      "far");
+  require(density >= 0.1 * physics.rho && density <= 20 * physics.rho,
+          "option -" + of + "density: must be 0.1 to 20 times -fluid_density");
+  solid.rho = density;
   solid.mu = options.real(
       of + "viscosity", physics.mu_f,
       {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});

@@ -74,7 +74,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
-    const Real inertia = inertia_[f] * solid.rho * d * d / solid.dt;
+    const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
     // less mu_s, as the solid's own compact viscous term does its part
     if (solid.one_sided) {
       e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});

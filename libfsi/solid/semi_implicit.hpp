@@ -27,6 +27,7 @@ struct ElasticTerms {
   bool one_sided = false;  ///< L is that of the cell's own side of the surface (InterfaceGradient)
   /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.
   const CellField<Vec3>* normal = nullptr;
+  Real rho_least = rho;  ///< of the solid and what is beside it
 };
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
@@ -51,14 +52,14 @@ struct ElasticTerms {
 /// (L_P + L_N) / 2, exact for a quadratic velocity, at the surface, where u has a kink,
 /// alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side: exact for two linear pieces,
 /// if L is the mean of the gradients to both sides of its cell or that of the cell's own. Explicit,
-/// and so at most 1.5 (kappa + m), m = rho |d|^2 / dt min(1 / 8, 1 / (2 K)) with the larger K =
-/// sum_f g |d|^2 / (2 V) of the two cells: a velocity that differs from all neighbours' then
-/// changes by no more than 1.5 of itself in a step, whatever the shape of its cell (K = dim on
-/// squares and regular simplices, 10 and more on slivers). Triangles and tetrahedra, whose gradient
-/// has more such modes, need twice the root and all of it. With L from the cell's own side (sided)
-/// kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m where that is
-/// positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n. Either costs an
-/// error of first order in dt. Without `kink` the mean is that of the face.
+/// and so at most 1.5 (kappa + m), m = rho |d|^2 / dt min(1 / 8, 1 / (2 K)), rho the least density
+/// around, with the larger K = sum_f g |d|^2 / (2 V) of the two cells: a velocity that differs from
+/// all neighbours' then changes by no more than 1.5 of itself in a step, whatever the shape of its
+/// cell (K = dim on squares and regular simplices, 10 and more on slivers). Triangles and
+/// tetrahedra, whose gradient has more such modes, need twice the root and all of it. With L from
+/// the cell's own side (sided) kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m
+/// where that is positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n.
+/// Either costs an error of first order in dt. Without `kink` the mean is that of the face.
 class SemiImplicitElasticity {
  public:
   /// Collective.

@@ -83,9 +83,11 @@ Solver::Calls::Calls(Profile& profile)
       set_velocity_gradient(profile.add("set_velocity_gradient", "momentum")),
       transport_elastic(profile.add("transport_elastic", "solid")),
       mix_viscosity(profile.add("mix_viscosity", "solid")),
+      mix_density(profile.add("mix_density", "solid")),
       add_elastic_force(profile.add("add_elastic_force", "solid")),
       add_semi_implicit(profile.add("add_semi_implicit", "solid")),
       add_body_force(profile.add("add_body_force", "momentum")),
+      balance_weight(profile.add("balance_weight", "pressure")),
       predict_momentum(profile.add("predict_momentum", "momentum")),
       predict_flux(profile.add("predict_flux", "flux")),
       project(profile.add("project", "pressure")),
@@ -102,6 +104,7 @@ void Solver::synchronise() {
   set_velocity_gradient(L_, state_);
   interface_L_f_.clear();
   for (Body& body : bodies_) transport_elastic(body, L_);
+  mix_density();
 }
 
 Real Solver::advance(Real dt) {

@@ -30,7 +30,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       name(solid.name),
       G(solid.G),
       mu(solid.mu),
-      acceleration(solid.acceleration),
+      rho(solid.rho > 0 ? solid.rho : physics.rho),
+      weight(rho * solid.acceleration + (rho - physics.rho) * physics.gravity),
       alpha(mesh),
       alpha_mid(mesh),
       B(mesh),
@@ -51,17 +52,11 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
       hold_scratch(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
-      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      specks(static_cast<std::size_t>(mesh.n_owned)) {
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
-  if (!law.B_itself()) T_of_law.emplace(mesh);
-  specks.resize(static_cast<std::size_t>(mesh.n_owned));
-  if (solid.kinematics == KinematicsKind::log_conformation && solid::has_simplices(mesh))
-    interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
-  if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
-    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
-  if (solid.acceleration != Vec3{})
-    body_force.emplace(mesh, weights, physics.rho * solid.acceleration);
+  hold_parts(physics);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Folded::refit);
@@ -69,6 +64,16 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
+}
+
+void Body::hold_parts(const Physics& physics) {
+  if (!law.B_itself()) T_of_law.emplace(mesh);
+  if (std::holds_alternative<solid::LogConformation>(kinematics) && solid::has_simplices(mesh))
+    interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
+  if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
+    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
+  if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
+  if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
 }
 
 void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
@@ -113,6 +118,7 @@ void Body::update_B() {
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }
+  if (alpha_line) vof::line_fraction(*alpha_line, alpha, interface, weights, mesh, band.faces());
   mesh.halo.update(B, band.listed());
   mesh.halo.update(lambda, band.listed());
 }
@@ -185,7 +191,7 @@ void Body::list(io::Snapshot& snapshot) {
 }
 
 void Body::resume() {
-  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
+  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   if (memory) memory->resume(alpha, grad);
   update_B();

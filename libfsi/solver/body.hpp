@@ -59,6 +59,8 @@ struct Body {
   /// Collective. The same for a reference map: xi_0(x) is where the particle at x came from.
   /// Errors: Error{input} with other kinematics.
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
+  /// Makes the parts that the law, the kinematics, the viscosity and the weight ask for.
+  void hold_parts(const Physics& physics);
   /// Collective. Renews what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -115,14 +117,22 @@ struct Body {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
   }
 
+  /// How well planes are to be known: where a weight is borne on an irregular mesh to round-off, as
+  /// what they tilt by accelerates the fluid.
+  vof::ReconstructAccuracy planes() const {
+    vof::ReconstructAccuracy accuracy;
+    if (alpha_line) accuracy.max_rounds = 20, accuracy.turn = 0;
+    return accuracy;
+  }
+
   /// What the elastic stress is made of, tau = G dev(T): zero away from the band; owned and halo.
   const CellField<SymTensor>& T() const { return T_of_law ? *T_of_law : B; }
 
   const Mesh& mesh;
   const FaceWeights& weights;
   std::string name;
-  Real G, mu;                 ///< shear modulus, dynamic viscosity
-  Vec3 acceleration;          ///< of a body force on it alone
+  Real G, mu, rho;            ///< shear modulus, dynamic viscosity, density
+  Vec3 weight;                ///< body force per volume: rho a + (rho - rho_fluid) g
   CellField<Real> alpha;      ///< volume fraction of the solid
   CellField<Real> alpha_mid;  ///< mean of it and of that before the last step
   CellField<SymTensor> B;     ///< on the band's cells, zero elsewhere; owned and halo
@@ -147,6 +157,9 @@ struct Body {
   solid::SemiImplicitElasticity semi_implicit_elasticity;
   std::optional<TwoViscosities> two_viscosities;  ///< where they differ
   std::optional<solid::BodyForce> body_force;     ///< where there is one
+  /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
+  /// and the solid has a weight in the fluid.
+  std::optional<FaceField<Real>> alpha_line;
   std::optional<solid::InterfaceGradient>
       interface_gradient;                        ///< where the velocity gradient needs it
   std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, beside it

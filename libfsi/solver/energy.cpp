@@ -12,12 +12,20 @@ EnergyBalance::EnergyBalance(const Solver& solver) : u_b_(solver.mesh()) {
   power_ = power(solver);
 }
 
+Real kinetic_energy(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  const flow::Density* density = solver.density();
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Real rho = density ? density->of_cell()[c] : solver.physics().rho;
+    sum.add(rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
+  }
+  return sum.total();
+}
+
 Real EnergyBalance::energy(const Solver& solver) const {
   const Mesh& mesh = solver.mesh();
-  Sum kinetic;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    kinetic.add(solver.physics().rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
-  Real sum = kinetic.total();
+  Real sum = kinetic_energy(solver);
   for (const Body& body : solver.bodies()) sum += body.law.energy(body.G, body.B, body.alpha, mesh);
   return sum;
 }
@@ -26,6 +34,7 @@ Real EnergyBalance::power_of_boundary(const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
   const FaceWeights& weights = solver.weights();
+  const flow::Density* density = solver.density();
   set_boundary_velocity(u_b_, state.u, solver.conditions(), state.t, mesh);
   Sum sum;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
@@ -35,7 +44,8 @@ Real EnergyBalance::power_of_boundary(const Solver& solver) {
       const Index b = f - mesh.n_internal, P = mesh.owner[f];
       const Vec3 u = open ? state.u[P] : u_b_[b];
       const Real phi = state.phi[f], p = open ? solver.p_b()[b] : state.p[P];
-      sum.add(-(p + solver.physics().rho / 2 * norm2(u)) * phi);
+      const Real rho = density ? density->of_face()[f] : solver.physics().rho;
+      sum.add(-(p + rho / 2 * norm2(u)) * phi);
       if (open || slips) continue;
       sum.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
       for (const Body& body : solver.bodies())
@@ -54,8 +64,7 @@ Real EnergyBalance::power(const Solver& solver) {
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Vec3 f = S;
     if (solver.driving_force()) f += solver.driving_force()(mesh.C[c], state.t);
-    for (const Body& body : solver.bodies())
-      f += (body.alpha[c] * solver.physics().rho) * body.acceleration;
+    for (const Body& body : solver.bodies()) f += body.alpha[c] * body.weight;
     sum.add(mesh.V[c] * dot(f, state.u[c]));
   }
   return sum.total() + power_of_boundary(solver);

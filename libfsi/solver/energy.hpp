@@ -5,15 +5,18 @@
 
 namespace fsi {
 
-/// Stored are the kinetic energy and the elastic energy of the solids. What walls, openings, forces
-/// and the mean velocity's gradient do on the fluid and solid is the work; viscosity takes some of
-/// it away. So stored - work, from the start on, can only fall, and what it rises by the scheme has
-/// made:
+/// Collective. sum_c rho u^2 V / 2, rho by the fractions of the cell.
+Real kinetic_energy(const Solver& solver);
+
+/// Stored are the kinetic energy and the elastic energy of the solids. What walls, openings,
+/// forces, the solids' weight in the fluid and the mean velocity's gradient do on the fluid and
+/// solid is the work; viscosity takes some of it away. So stored - work, from the start on, can
+/// only fall, and what it rises by the scheme has made:
 ///
 ///   made = max over t of (E(t) - E(0) - W(t)),  at least 0
 ///   dW/dt = sum_b {mu g (u_b - u_P) . u_b + alpha_b (tau . S) . u_b - p_b phi - rho |u_b|^2 phi /
 ///   2}
-///           + integral (S + f) . u + alpha rho a . u
+///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
 /// over the boundary faces b, S and phi outward, the viscous and elastic part where the velocity is
 /// given; by the trapezoidal rule in time.

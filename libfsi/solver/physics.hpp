@@ -10,12 +10,13 @@ namespace fsi {
 
 /// Material constants, in consistent units; those of the solid where a scene has one.
 struct Physics {
-  Real rho = 1;               ///< density of fluid and solid
+  Real rho = 1;               ///< density of the fluid, and of a solid without one of its own
   Real mu_f = 0.01;           ///< dynamic viscosity of the fluid
   Real mu_s = 0.01;           ///< of the solid
   Real G = 0;                 ///< shear modulus of the solid
   Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
   solid::Law law{};           ///< of the solid's elastic stress
+  Vec3 gravity{};             ///< acceleration of fluid and solids; p goes without rho gravity . x
 };
 
 /// How the deformation of a solid is tracked.
@@ -30,6 +31,7 @@ struct Solid {
   KinematicsKind kinematics = KinematicsKind::log_conformation;
   Vec3 acceleration{};  ///< of a body force that acts on this solid alone
   solid::Law law{};     ///< of its elastic stress
+  Real rho = 0;         ///< density; 0: that of the fluid
   /// Whether a map to the undeformed solid holds shape and strain to each other; left_cauchy_green
   /// has none.
   bool memory = true;

@@ -38,6 +38,7 @@ void Solver::list(io::Snapshot& snapshot) {
 
 void Solver::resume() {
   for (Body& body : bodies_) body.resume();
+  mix_density();
 }
 
 }  // namespace fsi

@@ -75,28 +75,39 @@ void Solver::put_solid(const Solid& solid) {
   Body& body = bodies_.back();
   body.t = state_.t;
   require_place(body, bodies_, mesh_);
-  modes_.stiff = modes_.stiff || (body.semi_implicit() && body.G > 0);
-  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
-  modes_.one_sided = modes_.one_sided || body.interface_gradient;
-  modes_.G = std::max(modes_.G, body.G);
-  if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
-  if (body.mu != physics_.mu_f) {
-    modes_.mu_varies = true;
-    // The transposed viscous term is explicit: backward Euler where it is large.
-    if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
-    momentum_.bound_explicit_viscosity(std::max(body.mu, physics_.mu_f));
-  }
-  if (body.two_viscosities) {
-    if (!stiff_) stiff_.emplace(mesh_);
-    momentum_.hold_old();
-  }
+  set_modes(body);
   alphas_.push_back(&body.alpha);
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());
     if (!mixed_mu_) mixed_mu_.emplace(mesh_);
   }
   mix_viscosity(mu_);
+  mix_density();
   hold_backup();
+}
+
+void Solver::set_modes(const Body& body) {
+  modes_.stiff = modes_.stiff || (body.semi_implicit() && body.G > 0);
+  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
+  modes_.one_sided = modes_.one_sided || body.interface_gradient;
+  modes_.G = std::max(modes_.G, body.G);
+  modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});
+  if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
+  if (body.mu != physics_.mu_f) {
+    modes_.mu_varies = true;
+    // The transposed viscous term is explicit: backward Euler where it is large.
+    if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
+  }
+  if (modes_.mu_varies) {
+    Real most = physics_.mu_f;
+    for (const Body& one : bodies_) most = std::max(most, one.mu);
+    momentum_.bound_explicit_viscosity(physics_.rho / modes_.rho_least * most);
+  }
+  if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
+  if (body.two_viscosities) {
+    if (!stiff_) stiff_.emplace(mesh_);
+    momentum_.hold_old();
+  }
 }
 
 void advance_interface(Body& body, const FlowAround& flow, Real t) {
@@ -114,7 +125,8 @@ void advance_interface(Body& body, const FlowAround& flow, Real t) {
     body.advected.add(vof::advect(body.alpha, body.interface, flow.phi, flow.u, body.dt / parts,
                                   body.mesh, body.advect_scratch));
     if (flow.leaves) body.count_out();
-    vof::reconstruct(body.interface, body.alpha, body.mesh, body.reconstruct_scratch);
+    vof::reconstruct(body.interface, body.alpha, body.mesh, body.reconstruct_scratch,
+                     body.planes());
   }
   for (Index c = 0; c < body.mesh.n_cells; ++c)
     body.alpha_mid[c] = (body.alpha_mid[c] + body.alpha[c]) / 2;
@@ -134,7 +146,7 @@ void Solver::separate_bodies() {
     }
   if (!separation_->apply(alphas_, shared_)) return;
   for (Body& body : bodies_)
-    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch);
+    vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
 }
 
 void advect_pressure_jump(CellField<Real>& p, const Body& body) {
@@ -191,7 +203,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                      .weights = body.weights,
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
-                                     .wave_speed = std::sqrt(body.G / flow.rho),
+                                     .wave_speed = std::sqrt(body.G / body.rho),
                                      .recovery = body.G / body.mu,
                                      .memory = body.memory ? &*body.memory : nullptr};
   std::visit(
@@ -252,7 +264,9 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
                    body.weights, flow.pressure, body.band);
   }
   if (body.body_force)
-    body.body_force->apply(force, rhie_chow_source, body.alpha_f, flow.pressure, body.band);
+    body.body_force->apply(force, rhie_chow_source,
+                           body.alpha_line ? *body.alpha_line : body.alpha_f, flow.pressure,
+                           body.band);
 }
 
 void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
@@ -271,12 +285,13 @@ void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& bod
       .L = L,
       .fraction = body.alpha,
       .G = body.G,
-      .rho = flow.rho,
+      .rho = body.rho,
       .mu_s = map ? 0 : body.mu,
       .dt = dt,
       .kink = !map,
       .one_sided = body.interface_gradient.has_value(),
-      .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr};
+      .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
+      .rho_least = flow.rho_least};
   body.semi_implicit_elasticity.apply(kappa, force, terms, body.weights, body.band);
 }
 
@@ -290,7 +305,7 @@ FlowAround Solver::flow_around() {
           .L_f = L_f_,
           .mu = mu_,
           .by_flux = by_flux_ ? &*by_flux_ : nullptr,
-          .rho = physics_.rho,
+          .rho_least = modes_.rho_least,
           .has_L = needs_L(),
           .leaves = leaves_};
 }

@@ -28,7 +28,7 @@ struct FlowAround {
   const std::vector<Tensor>& L_f;    ///< at irregular faces
   const FaceField<Real>& mu;         ///< as the momentum equation has it
   StrainByFlux* by_flux = nullptr;   ///< where some solid's strain needs it
-  Real rho = 1;
+  Real rho_least = 1;                ///< the least density of fluid and solids
   bool has_L = false;  ///< L = grad u is set in all cells; else the calls set it where they need it
   bool leaves = false;  ///< a solid may leave through the boundary
 };
@@ -45,13 +45,14 @@ void advect_pressure_jump(CellField<Real>& p, const Body& body);
 /// Errors: Error{numerics} where B is beyond the range of the law.
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow);
 
-/// (8) Collective. Adds the elastic force and its counterpart in the face flux, the traction
+/// (9) Collective. Adds the elastic force and its counterpart in the face flux, the traction
 /// between two viscosities and the body force, where there are such.
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow);
 
-/// (9) Collective. Adds what keeps a step of dt stable, where elasticity is partly implicit. kappa:
-/// cleared by Body::semi_implicit_elasticity before. Sets L on the band where the flow has none.
+/// (10) Collective. Adds what keeps a step of dt stable, where elasticity is partly implicit.
+/// kappa: cleared by Body::semi_implicit_elasticity before. Sets L on the band where the flow has
+/// none.
 void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
                        CellField<Tensor>& L, const FlowAround& flow, Real dt);
 

@@ -95,13 +95,15 @@ void Solver::step(Real dt) {
   clear_forces();
   for (Body& body : bodies_) transport_elastic(body, L_);      // (6)
   mix_viscosity(mu_);                                          // (7)
-  for (Body& body : bodies_) add_elastic_force(force_, body);  // (8)
-  add_semi_implicit(kappa_, force_, dt);                       // (9)
-  add_body_force(force_, t + dt / 2);                          // (10)
-  predict_momentum(state_.u, dt);                              // (11)
-  predict_flux(state_.phi, state_.u, dt);                      // (12)
-  project(state_, dt);                                         // (13)
-  hold_mean_velocity(state_, dt);                              // (14)
+  mix_density();                                               // (8)
+  for (Body& body : bodies_) add_elastic_force(force_, body);  // (9)
+  add_semi_implicit(kappa_, force_, dt);                       // (10)
+  add_body_force(force_, t + dt / 2);                          // (11)
+  balance_weight(state_);                                      // (12)
+  predict_momentum(state_.u, dt);                              // (13)
+  predict_flux(state_.phi, state_.u, dt);                      // (14)
+  project(state_, dt);                                         // (15)
+  hold_mean_velocity(state_, dt);                              // (16)
   check(state_);
   state_.t += dt;
   ++state_.step;
@@ -150,6 +152,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
       .mu_varies = modes_.mu_varies,
       .stiff = modes_.stiff,
       .force = force_,
+      .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
       .body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{}};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
@@ -171,6 +174,8 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
       .elastic = kappa_,
       .rho = physics_.rho,
       .dt = dt,
+      .density = heavy_ ? &heavy_->density : nullptr,
+      .force = heavy_ ? &heavy_->force : nullptr,
       .stress = modes_.G,
       .flux_strain = modes_.flux_strain ? 1 / solid::SemiImplicitElasticity::implicit_fraction : 0};
   flow::predict_flux(phi, u, u_b_new_, momentum_.boundary().open, terms, weights_, mesh_);
@@ -180,6 +185,7 @@ void Solver::project(State& state, Real dt) {
   const Profile::Call call(profile_, calls_.project);
   flow::divergence(divergence_, state.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
+  renew_responses();
   openings_.advance(q_b_, state.t + dt / 2, dt / physics_.rho);
   const SolveResult solve =
       projection_.project(state.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);

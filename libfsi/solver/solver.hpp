@@ -13,6 +13,7 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/density.hpp"
 #include "libfsi/flow/forcing.hpp"
 #include "libfsi/flow/loads.hpp"
 #include "libfsi/flow/momentum.hpp"
@@ -121,6 +122,8 @@ class Solver {
   /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
   Real overlap() const { return separation_ ? separation_->overlap() : 0; }
   const Physics& physics() const { return physics_; }
+  /// None where all solids are as dense as the fluid.
+  const flow::Density* density() const { return heavy_ ? &heavy_->density : nullptr; }
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
   const Profile& profile() const { return profile_; }
@@ -154,14 +157,18 @@ class Solver {
   void clear_forces();
   void transport_elastic(Body& body, CellField<Tensor>& L);
   void mix_viscosity(FaceField<Real>& mu);
+  void mix_density();
   void add_elastic_force(CellField<Vec3>& force, Body& body);
   void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt);
   void add_body_force(CellField<Vec3>& force, Real t);
+  void balance_weight(State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
   void project(State& state, Real dt);
   void hold_mean_velocity(State& state, Real dt);
   void check(const State& state);
+  /// phi_1 of the mean velocity and the answers of loads are those of the density.
+  void renew_responses();
   /// What the calls on bodies read of the flow.
   FlowAround flow_around();
   /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
@@ -204,7 +211,10 @@ class Solver {
     bool flux_strain = false;  ///< the face flux strains some solid
     bool one_sided = false;    ///< some solid's L is of one side of its surface
     Real G = 0;                ///< the largest
+    Real rho_least = std::numeric_limits<Real>::max();  ///< of fluid and solids
   };
+  /// What a body just put in asks for.
+  void set_modes(const Body& body);
   /// Whether the momentum equation needs the velocity gradient in all cells.
   bool needs_L() const {
     return weights_.uneven || momentum_.reads_L() || modes_.mu_varies || modes_.one_sided;
@@ -217,8 +227,8 @@ class Solver {
   struct Calls {
     explicit Calls(Profile& profile);
     int advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
-        set_velocity_gradient, transport_elastic, mix_viscosity, add_elastic_force,
-        add_semi_implicit, add_body_force, predict_momentum, predict_flux, project,
+        set_velocity_gradient, transport_elastic, mix_viscosity, mix_density, add_elastic_force,
+        add_semi_implicit, add_body_force, balance_weight, predict_momentum, predict_flux, project,
         hold_mean_velocity, check;
   };
 
@@ -246,8 +256,16 @@ class Solver {
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
   Modes modes_;
-  std::optional<FaceField<Real>> stiff_;       // kappa_ and what two viscosities add to it
-  std::optional<CellField<Real>> mixed_mu_;    // of the cells, where there are several solids
+  std::optional<FaceField<Real>> stiff_;     // kappa_ and what two viscosities add to it
+  std::optional<CellField<Real>> mixed_mu_;  // of the cells, where there are several solids
+  /// The density and what it needs, where some solid's is not the fluid's.
+  struct Heavy {
+    Heavy(const Mesh& mesh, const FaceWeights& weights, Real rho)
+        : density(mesh, weights, rho), force(mesh) {}
+    flow::Density density;
+    CellField<Vec3> force;  // all that pushes a cell, in a step
+  };
+  std::optional<Heavy> heavy_;
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<CellField<Real>*> alphas_;       // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/geometry/cut.hpp"
 #include "libfsi/operators/stencil.hpp"
@@ -60,6 +61,33 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
       ++planes;
     }
     alpha_f[f] = planes > 0 ? sum / planes : alpha[P] + lambda * (alpha[N] - alpha[P]);
+  }
+}
+
+void line_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
+                   std::span<const Index> faces) {
+  // Part behind the plane of c between heights a and b above it; without a plane the cell is full
+  // or empty.
+  const auto part = [&](Index c, const Vec3& from, const Vec3& to) -> Real {
+    const Piece& p = interface.piece[c];
+    if (!(p.area > 0)) return alpha[c];
+    Real a = dot(p.n_hat, from - p.centre), b = dot(p.n_hat, to - p.centre);
+    if (a > b) std::swap(a, b);
+    return b <= 0 ? 1 : a >= 0 ? 0 : -a / (b - a);
+  };
+  for (const Index f : faces) {
+    const Index P = mesh.owner[f];
+    const Vec3 x = mesh.C[P];
+    if (f >= mesh.n_internal) {
+      alpha_f[f] = part(P, x, x + mesh.d[f]);
+      continue;
+    }
+    const Index N = mesh.neighbour[f];
+    const Real lambda = weights.lambda[f];
+    const Vec3 y = mesh.C[N];
+    alpha_f[f] = lambda * part(P, x, x + lambda * mesh.d[f]) +
+                 (1 - lambda) * part(N, y - (1 - lambda) * mesh.d[f], y);
   }
 }
 

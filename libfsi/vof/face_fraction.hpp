@@ -24,6 +24,15 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces);
 
+/// The part of solid on the line between the centres of the two cells of a face, each half by the
+/// plane of its own cell; where neither has one, what interface there is lies on the face. Over a
+/// flat surface its sum along any way from cell to cell depends on the ends alone, which that of
+/// the prism does on quadrilaterals and hexahedra in line with it. Boundary faces: from the centre
+/// to the face. Sets the listed faces.
+void line_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
+                   const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
+                   std::span<const Index> faces);
+
 /// Where the surface runs in a cell, or between it and a neighbour: its normal out of the solid and
 /// the height of the cell's centre above it; zero elsewhere. Sets the listed cells.
 void cell_plane(CellField<Vec3>& normal, CellField<Real>& height, const CellField<Real>& alpha,

@@ -15,7 +15,7 @@ COMMANDS = (("fsi-mesh check", ["check", "in.msh"]), ("fsi-mesh convert", ["conv
 # Title, names that begin so, a sentence before the table.
 GROUPS = (
     ("Mesh", ("mesh", "petscpartitioner_type"), "What the flow happens in, and how ranks share it."),
-    ("Flow", ("fluid_", "flow_convection"), "The fluid and its equation."),
+    ("Flow", ("fluid_", "flow_convection", "gravity"), "The fluid and its equation."),
     ("Solid", ("solid_",), "The solid at the start, its material and how its deformation is tracked. "
      "Density and viscosity of the solid are those of the fluid where they are not given. "
      "A shape takes its own sizes alone: an option of another shape is refused. "

@@ -3,8 +3,8 @@
 
     run.py SOURCE DRIVERS FOLDER RANKS [MPIEXEC...]
 
-The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, and a sphere
-in a vessel between windkessels, and one that leaves the mesh, coarse.
+The soft torus in the pipe and the soft disc in the cavity, the disc with the reference map too, a heavy torus,
+a sphere in a vessel between windkessels, and one that leaves the mesh, coarse.
 On the same ranks the tables (but for the columns of wall time) and the last checkpoint are equal byte
 for byte.
 """
@@ -29,6 +29,9 @@ CASES = {
     "gent": ("fsi-cavity", "cavity_disc", ["-2", "cavity", "n=24"],
              ["-time_end", "4", "-checkpoint_interval", "0.5", "-output_interval", "2",
               "-solid_law", "gent", "-solid_law_limit", "3"]),
+    "heavy": ("fsi-pipe", "torus", ["-3", "pipe", "n=8", "length=2"],
+              ["-time_end", "0.6", "-checkpoint_interval", "0.05", "-output_interval", "0.2",
+               "-gravity", "0,-2,0", "-solid_density", "3"]),
     "vessel": ("fsi-vessel", "bifurcation", ["-3", "bifurcation", "n=6"],
                ["-time_end", "0.8", "-checkpoint_interval", "0.05", "-output_interval", "0.2"]),
     # nothing of the solid is left in the second half

@@ -23,6 +23,7 @@ struct Scene {
   KinematicsKind kinematics = KinematicsKind::log_conformation;
   Real G = 0.1, mu_s = 0.01;
   int steps = 60;
+  Real ratio = 1;  ///< of the densities
 };
 
 /// Collective. The fields that a checkpoint would hold of which some rank has other values than the
@@ -53,11 +54,14 @@ void expect_one_state(const Scene& scene) {
   Conditions conditions{{"top", Wall{{1, 0, 0}}}};
   for (const char* name : {"left", "right", "bottom"}) conditions[name] = Wall{};
   if (mesh.dim == 3) conditions["back"] = conditions["front"] = Slip{};
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = scene.G},
-                {.conditions = conditions});
+  Solver solver(mesh, {.mu_f = 0.01, .gravity = {0, -1, 0}}, {.conditions = conditions});
   solver.start([](const Vec3&) { return Vec3{}; });
-  solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.5, mesh.dim == 3 ? 0.5 : 0}),
-                   scene.kinematics);
+  const Vec3 centre{0.6, 0.5, mesh.dim == 3 ? 0.5 : 0};
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), centre),
+                    .G = scene.G,
+                    .mu = scene.mu_s,
+                    .kinematics = scene.kinematics,
+                    .rho = scene.ratio});
   const io::Layout cells(mesh, Location::cells), faces(mesh, Location::faces);
   for (int i = 0; i < scene.steps; ++i) {
     const Real dt = std::min({0.02, solver.advective_dt(0.5), solver.boundary_dt(0.5),
@@ -67,6 +71,11 @@ void expect_one_state(const Scene& scene) {
   }
 }
 
+TEST(Ranks, HoldOneStateOfAHeavyDisc) {
+  expect_one_state({.ratio = 3});
+  expect_one_state({.simplex = true, .steps = 30, .ratio = 3});
+  expect_one_state({.n = {10, 10, 10}, .steps = 10, .ratio = 0.5});
+}
 TEST(Ranks, HoldOneStateOfADisc) { expect_one_state({.steps = 250}); }
 
 TEST(Ranks, HoldOneStateOfAMappedDisc) {
