@@ -3,8 +3,8 @@
 //   gmsh -2 -setnumber n 32 meshes/cavity.geo -o cavity.msh
 //   mine/own-loop -mesh cavity.msh
 // The numbers beside the calls are those of doc/theory/step.md. What one disc of the fluid's
-// viscosity on an orthogonal mesh between walls does not need is left out: (2), (7), (8), (11),
-// (12) and (16).
+// viscosity on an orthogonal mesh between walls does not need is left out: (3), (9), (10), (13),
+// (14) and (18).
 
 #include <libfsi/fsi.hpp>
 
@@ -85,21 +85,23 @@ fsi::RunStatus own_loop() {
   // 4 the loop
   Real t = 0;
   for (int n = 0; n < steps; ++n, t += dt) {
-    fsi::advance_interface(disc, around, t + disc.time_offset() * dt);  // (1)
-    fsi::advect_pressure_jump(p, disc);                                 // (3)
-    projection.set_gradient(grad_p, p, none);                           // (4)
-    fsi::set_boundary_velocity(u_b, u, conditions, t, mesh);            // (5)
+    fsi::hold_shape(disc);                                              // (1)
+    fsi::advance_interface(disc, around, t + disc.time_offset() * dt);  // (2)
+    fsi::advect_pressure_jump(p, disc);                                 // (4)
+    projection.set_gradient(grad_p, p, none);                           // (5)
+    fsi::set_boundary_velocity(u_b, u, conditions, t, mesh);            // (6)
     force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa);
 
-    fsi::transport_elastic(disc, L, around);                    // (6)
-    fsi::add_elastic_force(force, source, disc, L, around);     // (9)
-    fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (10)
+    fsi::transport_memory(disc, L, around);                     // (7)
+    fsi::transport_elastic(disc, L, around);                    // (8)
+    fsi::add_elastic_force(force, source, disc, L, around);     // (11)
+    fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (12)
 
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
-    momentum.predict(u, momentum_terms, dt);                                      // (13)
-    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (14)
+    momentum.predict(u, momentum_terms, dt);                                      // (15)
+    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (16)
     flow::divergence(divergence, phi, mesh);
-    projection.project(phi, q, grad_q, none, 0);  // (15)
+    projection.project(phi, q, grad_q, none, 0);  // (17)
     for (Index c = 0; c < mesh.n_cells; ++c) {
       u[c] -= grad_q[c];
       p[c] += physics.rho / dt * q[c];

@@ -122,7 +122,7 @@ io::Snapshot Output::snapshot() {
   std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
   for (const Body& body : solver_.bodies())
     identity += (body.name.empty() ? " " : " " + body.name + ".") +
-                "kinematics=" + name_of(body.kinematics);
+                "kinematics=" + name_of(body.kinematics) + (body.memory ? "+memory" : "");
   io::Snapshot all(identity);
   all.add("simulated", &simulated_);
   solver_.list(all);

@@ -127,8 +127,8 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
 
 /// Extremes of det grad xi where solid fills half a cell or more: how far the map's own volume
 /// went.
-void add_map(std::vector<Entry>& row, const solid::ReferenceMap& map, const CellField<Real>& alpha,
-             const Mesh& mesh) {
+void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::ReferenceMap& map,
+             const CellField<Real>& alpha, const Mesh& mesh) {
   Real low = std::numeric_limits<Real>::max(), high = -low;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (!(alpha[c] >= solid::alpha_known)) continue;
@@ -136,6 +136,7 @@ void add_map(std::vector<Entry>& row, const solid::ReferenceMap& map, const Cell
   }
   row.push_back({"map_det_min", global_min(low)});
   row.push_back({"map_det_max", global_max(high)});
+  row.push_back({"shape_energy", soundness.shape_energy, Course::shape});
 }
 
 /// Number of a limit in flow.csv.
@@ -168,11 +169,23 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
   return B;
 }
 
+Real elastic_energy(const Body& body) {
+  return body.law.energy(body.G, B_field(body, body.mesh), body.alpha, body.mesh);
+}
+
+Real shape_energy(const Body& body) {
+  const solid::ReferenceMap* map = body.map();
+  if (map == nullptr) return 0;
+  CellField<SymTensor> B(body.mesh, identity());
+  for (Index c = 0; c < body.mesh.n_owned; ++c)
+    if (body.alpha[c] > 0 && map->is_set[c] > 0) B[c] = map->B(c, body.alpha[c]);
+  return body.law.energy(body.G, B, body.alpha, body.mesh);
+}
+
 std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
   const Mesh& mesh = solver.mesh();
   Real elastic = 0;
-  for (const Body& body : solver.bodies())
-    elastic += body.law.energy(body.G, B_field(body, mesh), body.alpha, mesh);
+  for (const Body& body : solver.bodies()) elastic += elastic_energy(body);
   std::vector<Entry> row{
       {"t", solver.state().t},
       {"dt", dt, Course::step},
@@ -207,7 +220,10 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   if (volume_0_ == 0) volume_0_ = m.volume;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
   constexpr Real piece = 0.01;
-  soundness_ = {h.eigenvalue_min, analysis::pieces(body.alpha, piece * volume_0_, mesh)};
+  soundness_ = {.eigenvalue_min = h.eigenvalue_min,
+                .pieces = analysis::pieces(body.alpha, piece * volume_0_, mesh),
+                .elastic_energy = elastic_energy(body),
+                .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};
   add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);
@@ -223,8 +239,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
-  if (const auto* map = std::get_if<solid::ReferenceMap>(&body.kinematics))
-    add_map(row, *map, body.alpha, mesh);
+  row.push_back({"elastic_energy", soundness_.elastic_energy, Course::shape});
+  if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body.alpha, mesh);
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

@@ -31,6 +31,8 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
 struct Soundness {
   Real eigenvalue_min = 1;  ///< of B in cells more than half solid
   int pieces = 1;           ///< of a hundredth of its volume or more
+  Real elastic_energy = 0;  ///< as the stress has it
+  Real shape_energy = 0;    ///< of the strain that the map to the undeformed solid tells
 };
 
 /// Follows the solid from row to row. What it remembers is part of a checkpoint.
@@ -60,5 +62,10 @@ class SolidRecord {
 
 /// B of every cell: the unit tensor outside the solid.
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
+
+/// Collective. Elastic energy of a solid: of its stress, and of the strain that the map to the
+/// undeformed solid tells (0 without one).
+Real elastic_energy(const Body& body);
+Real shape_energy(const Body& body);
 
 }  // namespace fsi

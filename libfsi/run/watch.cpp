@@ -23,8 +23,7 @@ std::string table_of(const Body& body) {
 
 std::string Watch::energy(Real made, const State& state) {
   constexpr Real odd = 0.1, wrong = 0.5;
-  constexpr int start = 20;
-  if (state.step < start || made < odd) return "";
+  if (made < odd) return "";
   const std::string text =
       print("at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of flow.csv)",
             state.t, 100 * made) +
@@ -67,6 +66,18 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
                        print(" is %.3g, below %g", sound.eigenvalue_min, least) +
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
+  }
+  constexpr Real apart = 0.5, matters = 1e-3;  // of the larger, of G times the volume
+  const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
+  if (body.map() != nullptr && !said.forgetful && larger > matters * body.G * body.filled.volume &&
+      std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {
+    said.forgetful = true;
+    say("warning", at + "the stress of the " + name_of(body) +
+                       print(" holds an energy of %.3g, its shape one of %.3g",
+                             sound.elastic_energy, sound.shape_energy) +
+                       " (columns elastic_energy and shape_energy of " + table_of(body) +
+                       "): strain and shape no longer belong to each other; the mesh is too " +
+                       "coarse for the strain");
   }
   if (sound.pieces > said.pieces && !said.torn) {
     said.torn = true;

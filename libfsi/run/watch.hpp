@@ -15,18 +15,18 @@ class Watch {
   explicit Watch(std::size_t bodies) : said_(bodies) {}
 
   /// A warning when `made`, the part of the energy that comes from nothing, is odd; where it is
-  /// most of it, why the run must end: such a run is wrong, whatever else it tells. Else "". The
-  /// start from an impulse is not judged.
+  /// most of it, why the run must end: such a run is wrong, whatever else it tells. Else "".
   std::string energy(Real made, const State& state);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
-  /// A warning when a solid is strained past what the mesh resolves, and when it falls into more
-  /// pieces than it had when this was first asked.
+  /// A warning when a solid is strained past what the mesh resolves, when the energy of its stress
+  /// is not that of its shape, and when it falls into more pieces than it had when this was first
+  /// asked.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound);
 
  private:
   struct Said {
-    bool leaving = false, left = false, strained = false, torn = false;
+    bool leaving = false, left = false, strained = false, torn = false, forgetful = false;
     int pieces = -1;  // at first
   };
   std::vector<Said> said_;  // of the bodies

@@ -106,7 +106,7 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
 }
 
 void LogConformation::recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt) {
-  static const Real rate = getenv("PULL") ? atof(getenv("PULL")) : 0.05;
+  constexpr Real rate = 0.2;
   for (const Index c : known_.core()) {
     const Real courant = dt * courant_rate(phi, mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-rate * courant));

@@ -75,7 +75,7 @@ class LogConformation {
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
-  /// psi <- psi + (1 - exp(-0.05 Co)) trust (log B_memory - psi) on known_.core(), Co the cell's
+  /// psi <- psi + (1 - exp(-0.2 Co)) trust (log B_memory - psi) on known_.core(), Co the cell's
   /// Courant number: psi wears down with the way through the mesh, and what wears it down does not
   /// touch the map.
   void recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt);

@@ -34,6 +34,7 @@ void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
   d.fill({});
   is_set.fill(1);
   mark(alpha);
+  is_set.fill(0);
   extend();
 }
 
@@ -47,10 +48,7 @@ void ReferenceMap::resume(const CellField<Real>& alpha, CellField<SymGradient>& 
 }
 
 void ReferenceMap::mark(const CellField<Real>& alpha) {
-  const auto known = [&](Index c) {
-    return is_set[c] > 0 && (folded_ == Folded::error || alpha[c] == 0 || trust(c) > 0);
-  };
-  for (Index c = 0; c < mesh_.n_cells; ++c) filled_[c] = known(c) ? alpha[c] : 0;
+  for (Index c = 0; c < mesh_.n_cells; ++c) filled_[c] = is_set[c] > 0 ? alpha[c] : 0;
   known_.rebuild(filled_, alpha_known);
 }
 
@@ -146,7 +144,8 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
-  if (folded_ == Folded::error && !all_of_ranks(!folded()))
+  if (folded_ == Folded::refit) return refit();
+  if (!all_of_ranks(!folded()))
     throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }
 
@@ -156,6 +155,20 @@ Strain ReferenceMap::transport(const CellField<Real>& /*alpha*/, const FlowSnaps
   for (const Index c : known_.core()) fastest = std::max(fastest, largest_rate(snapshot.L[c]));
   return in_parts(
       dt, [&] { return fastest; }, [&](Real part) { return advance(snapshot, part), fastest; });
+}
+
+void ReferenceMap::refit() {
+  const auto lost = [&](Index c) { return filled_[c] >= alpha_known && !(trust(c) > 0); };
+  if (all_of_ranks(std::ranges::none_of(known_.core(), lost))) return;
+  kept_.clear();
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    if (lost(c)) kept_.emplace_back(c, filled_[c]);
+  for (const auto& [c, alpha] : kept_) filled_[c] = 0;
+  known_.rebuild(filled_, alpha_known);
+  extend();
+  for (const auto& [c, alpha] : kept_) filled_[c] = alpha;
+  known_.rebuild(filled_, alpha_known);
+  extend();
 }
 
 bool ReferenceMap::folded() const {

@@ -2,6 +2,7 @@
 // Kinematics of the solid: transport of the reference map, where each particle once was.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "libfsi/solid/extension.hpp"
@@ -88,15 +89,19 @@ class ReferenceMap {
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;
+  /// Collective. Gives the cells that are not to be relied on the value that the extension would
+  /// give them.
+  void refit();
 
   const Mesh& mesh_;
   Folded folded_;
   GradientStencil stencil_;
   Band known_;
   MapExtension extension_;
-  CellField<Real> filled_;   // alpha where d is set
-  CellField<Tensor> slope_;  // grad d
-  std::vector<Vec3> new_;    // beside the list of cells worked on
+  CellField<Real> filled_;                    // alpha where d is set
+  CellField<Tensor> slope_;                   // grad d
+  std::vector<Vec3> new_;                     // beside the list of cells worked on
+  std::vector<std::pair<Index, Real>> kept_;  // cells to refit and their alpha
 };
 
 }  // namespace fsi::solid

@@ -17,7 +17,7 @@ namespace {
 /// that it ends with is not known before.
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
-constexpr Real elastic_max = 5;             // elastic waves: found stable up to here
+constexpr Real elastic_max = 2.5;           // elastic waves: beyond they grow within a few steps
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
@@ -76,11 +76,13 @@ bool Solver::stuck(Real dt) {
 }
 
 Solver::Calls::Calls(Profile& profile)
-    : advance_interface(profile.add("advance_interface", "vof")),
+    : hold_shape(profile.add("hold_shape", "vof")),
+      advance_interface(profile.add("advance_interface", "vof")),
       advect_pressure_jump(profile.add("advect_pressure_jump", "solid")),
       separate_bodies(profile.add("separate_bodies", "vof")),
       set_pressure_gradient(profile.add("set_pressure_gradient", "momentum")),
       set_velocity_gradient(profile.add("set_velocity_gradient", "momentum")),
+      transport_memory(profile.add("transport_memory", "solid")),
       transport_elastic(profile.add("transport_elastic", "solid")),
       mix_viscosity(profile.add("mix_viscosity", "solid")),
       mix_density(profile.add("mix_density", "solid")),
@@ -97,12 +99,14 @@ Solver::Calls::Calls(Profile& profile)
 void Solver::synchronise() {
   const auto stands_apart = [&](const Body& body) { return body.t != state_.t; };
   if (std::ranges::none_of(bodies_, stands_apart)) return;
+  for (Body& body : bodies_) hold_shape(body);
   for (Body& body : bodies_) advance_interface(body, state_.t);
   separate_bodies();
   for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);
   set_pressure_gradient(grad_p_, state_);
   set_velocity_gradient(L_, state_);
   interface_L_f_.clear();
+  for (Body& body : bodies_) transport_memory(body, L_);
   for (Body& body : bodies_) transport_elastic(body, L_);
   mix_density();
 }

@@ -82,7 +82,7 @@ void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
         for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
       },
       kinematics);
-  memory.reset(), held = false;  // B does not tell how the shape came from the undeformed one
+  held = false;  // B does not tell how the shape came from the undeformed one
   resume();
 }
 
@@ -129,9 +129,8 @@ void Body::hold_shape() {
   trust.clear();
   for (const Index c : m.cells()) trust.push_back(m.trust(c));
   hold = vof::hold_shape(
-      alpha,
-      {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust}, mesh,
-      hold_scratch);
+      alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
+      mesh, hold_scratch);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
 }
 
@@ -193,7 +192,7 @@ void Body::list(io::Snapshot& snapshot) {
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
-  if (memory) memory->resume(alpha, grad);
+  if (remembers()) memory->resume(alpha, grad);
   update_B();
 }
 

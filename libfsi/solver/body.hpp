@@ -68,7 +68,8 @@ struct Body {
   /// Collective. Sets the band, B, T, lambda and alpha_f from alpha and the kinematics' unknown.
   /// Errors: Error{numerics} where B is beyond the range of the law.
   void update_B();
-  /// Collective. Holds alpha to the shape that the map tells, where there is one; renews the planes.
+  /// Collective. Holds alpha to the shape that the map tells, where there is one; renews the
+  /// planes.
   void hold_shape();
   /// Collective, after `advect`. Counts what left through the boundary. Once something has, takes
   /// out specks, cells with less than a hundredth of solid in themselves and all around them. It
@@ -110,8 +111,10 @@ struct Body {
   }
   /// The map to the undeformed solid that the shape is held to; none: nothing remembers it.
   const solid::ReferenceMap* map() const {
-    return memory ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
+    return remembers() ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
   }
+  /// Whether a map beside psi takes part.
+  bool remembers() const { return memory && held; }
   /// B of any cell, the unit tensor where there is none.
   SymTensor B_of(Index c) const {
     return std::visit([&](const auto& k) { return k.B(c, alpha[c]); }, kinematics);
@@ -168,16 +171,16 @@ struct Body {
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the map's shape
   vof::HoldScratch hold_scratch;
-  std::vector<Real> trust;  ///< scratch of that
-  vof::HoldReport hold;     ///< of the last step
-  vof::Filled filled;                            ///< volume and its error at the start
-  std::vector<Index> last_cells;                 ///< where B was set
-  vof::AdvectReport advected;                    ///< of the last step
-  std::vector<char> mirror;                      ///< [n_boundary] 1 on planes of symmetry
-  std::vector<char> specks;                      ///< [n_owned] scratch
-  Real volume_out = 0;                           ///< what left the mesh or was taken out after it
-  Real residue = 0;       ///< of this: what was taken out at the end, by this program
-  std::int64_t gone = 0;  ///< 1: nothing is left
+  std::vector<Real> trust;        ///< scratch of that
+  vof::HoldReport hold;           ///< of the last step
+  vof::Filled filled;             ///< volume and its error at the start
+  std::vector<Index> last_cells;  ///< where B was set
+  vof::AdvectReport advected;     ///< of the last step
+  std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry
+  std::vector<char> specks;       ///< [n_owned] scratch
+  Real volume_out = 0;            ///< what left the mesh or was taken out after it
+  Real residue = 0;               ///< of this: what was taken out at the end, by this program
+  std::int64_t gone = 0;          ///< 1: nothing is left
 };
 
 }  // namespace fsi

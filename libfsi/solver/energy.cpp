@@ -1,42 +1,54 @@
 #include "libfsi/solver/energy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi {
+namespace {
 
-EnergyBalance::EnergyBalance(const Solver& solver) : u_b_(solver.mesh()) {
-  first_ = stored_ = largest_ = energy(solver);
-  power_ = power(solver);
-}
-
-Real kinetic_energy(const Solver& solver) {
+void add_kinetic_energy(Sum& sum, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const flow::Density* density = solver.density();
-  Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Real rho = density ? density->of_cell()[c] : solver.physics().rho;
     sum.add(rho / 2 * mesh.V[c] * norm2(solver.state().u[c]));
   }
+}
+
+}  // namespace
+
+EnergyBalance::EnergyBalance(const Solver& solver) : u_b_(solver.mesh()) {
+  set_power_and_stored(solver);
+  first_ = largest_ = stored_;
+}
+
+Real kinetic_energy(const Solver& solver) {
+  Sum sum;
+  add_kinetic_energy(sum, solver);
   return sum.total();
 }
 
-Real EnergyBalance::energy(const Solver& solver) const {
-  const Mesh& mesh = solver.mesh();
-  Real sum = kinetic_energy(solver);
-  for (const Body& body : solver.bodies()) sum += body.law.energy(body.G, body.B, body.alpha, mesh);
-  return sum;
+void EnergyBalance::set_power_and_stored(const Solver& solver) {
+  std::array<Sum, 2> sums;
+  add_power(sums[0], solver);
+  add_power_of_boundary(sums[0], solver);
+  add_kinetic_energy(sums[1], solver);
+  for (const Body& body : solver.bodies())
+    body.law.add_energy(sums[1], body.G, body.B, body.alpha, solver.mesh());
+  std::array<Real, 2> totals{};
+  Sum::totals(totals, sums);
+  power_ = totals[0], stored_ = totals[1];
 }
 
-Real EnergyBalance::power_of_boundary(const Solver& solver) {
+void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
   const FaceWeights& weights = solver.weights();
   const flow::Density* density = solver.density();
   set_boundary_velocity(u_b_, state.u, solver.conditions(), state.t, mesh);
-  Sum sum;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const bool open = fixes_pressure(solver.conditions()[i]);
     const bool slips = std::holds_alternative<Slip>(solver.conditions()[i]);
@@ -53,31 +65,31 @@ Real EnergyBalance::power_of_boundary(const Solver& solver) {
           sum.add(body.alpha_f[f] * body.G * dot(dot(dev(body.T()[P]), mesh.Sf[f]), u));
     }
   }
-  return sum.total();
 }
 
-Real EnergyBalance::power(const Solver& solver) {
+void EnergyBalance::add_power(Sum& sum, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
   const Vec3 S = solver.driving_gradient() * solver.axis();
-  Sum sum;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Vec3 f = S;
     if (solver.driving_force()) f += solver.driving_force()(mesh.C[c], state.t);
     for (const Body& body : solver.bodies()) f += body.alpha[c] * body.weight;
     sum.add(mesh.V[c] * dot(f, state.u[c]));
   }
-  return sum.total() + power_of_boundary(solver);
 }
 
 void EnergyBalance::add(const Solver& solver, Real dt) {
   const Real before = power_;
-  power_ = power(solver);
+  set_power_and_stored(solver);
   work_ += dt * (before + power_) / 2;
   done_ += dt * (std::abs(before) + std::abs(power_)) / 2;
-  stored_ = energy(solver);
   largest_ = std::max(largest_, stored_);
-  made_ = std::max(made_, stored_ - first_ - work_);
+  if (++steps_ <= start) {
+    first_ = stored_ - work_;
+  } else {
+    made_ = std::max(made_, stored_ - first_ - work_);
+  }
 }
 
 Real EnergyBalance::part_made() const {
@@ -92,6 +104,7 @@ void EnergyBalance::list(io::Snapshot& snapshot) {
   snapshot.add("energy_done", &done_);
   snapshot.add("energy_power", &power_);
   snapshot.add("energy_made", &made_);
+  snapshot.add("energy_steps", &steps_);
 }
 
 }  // namespace fsi

@@ -10,18 +10,20 @@ Real kinetic_energy(const Solver& solver);
 
 /// Stored are the kinetic energy and the elastic energy of the solids. What walls, openings,
 /// forces, the solids' weight in the fluid and the mean velocity's gradient do on the fluid and
-/// solid is the work; viscosity takes some of it away. So stored - work, from the start on, can
+/// solid is the work; viscosity takes some of it away. So stored - work can
 /// only fall, and what it rises by the scheme has made:
 ///
-///   made = max over t of (E(t) - E(0) - W(t)),  at least 0
+///   made = max over t > t_0 of (E(t) - E(t_0) - W(t) + W(t_0)),  at least 0
 ///   dW/dt = sum_b {mu g (u_b - u_P) . u_b + alpha_b (tau . S) . u_b - p_b phi - rho |u_b|^2 phi /
 ///   2}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
 /// over the boundary faces b, S and phi outward, the viscous and elastic part where the velocity is
-/// given; by the trapezoidal rule in time.
+/// given; by the trapezoidal rule in time. t_0 is the end of the first twenty steps: a flow that
+/// starts from an impulse is not judged.
 class EnergyBalance {
  public:
+  static constexpr int start = 20;  ///< steps that are not judged
   /// Collective. Begins with the solver's state.
   explicit EnergyBalance(const Solver& solver);
 
@@ -39,12 +41,13 @@ class EnergyBalance {
   void list(io::Snapshot& snapshot);
 
  private:
-  Real energy(const Solver& solver) const;
-  Real power(const Solver& solver);
-  Real power_of_boundary(const Solver& solver);
+  void set_power_and_stored(const Solver& solver);
+  static void add_power(Sum& sum, const Solver& solver);
+  void add_power_of_boundary(Sum& sum, const Solver& solver);
 
   BoundaryField<Vec3> u_b_;
   Real first_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace fsi

@@ -110,10 +110,11 @@ void Solver::set_modes(const Body& body) {
   }
 }
 
+void hold_shape(Body& body) { body.hold_shape(); }
+
 void advance_interface(Body& body, const FlowAround& flow, Real t) {
   body.dt = t - body.t;
   body.t = t;
-  body.hold_shape();
   body.alpha_mid.assign(body.alpha);
   // A flux follows the plane of one cell, for a part of the step in which the surface stays in it:
   // in whole steps the way of a thin curved body depends on dt (doc/theory/interface.md).
@@ -179,7 +180,7 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
 }
 
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
-  if (!body.memory) return;
+  if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
   map.mark(body.alpha);
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
@@ -192,7 +193,6 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
 }
 
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
-  transport_memory(body, L, flow);
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
@@ -205,7 +205,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                      .contact = &contact,
                                      .wave_speed = std::sqrt(body.G / body.rho),
                                      .recovery = body.G / body.mu,
-                                     .memory = body.memory ? &*body.memory : nullptr};
+                                     .memory = body.remembers() ? &*body.memory : nullptr};
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());
@@ -308,6 +308,16 @@ FlowAround Solver::flow_around() {
           .rho_least = modes_.rho_least,
           .has_L = needs_L(),
           .leaves = leaves_};
+}
+
+void Solver::hold_shape(Body& body) {
+  const Profile::Call call(profile_, calls_.hold_shape);
+  fsi::hold_shape(body);
+}
+
+void Solver::transport_memory(Body& body, CellField<Tensor>& L) {
+  const Profile::Call call(profile_, calls_.transport_memory);
+  fsi::transport_memory(body, L, flow_around());
 }
 
 void Solver::advance_interface(Body& body, Real t) {

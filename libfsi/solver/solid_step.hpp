@@ -33,24 +33,32 @@ struct FlowAround {
   bool leaves = false;  ///< a solid may leave through the boundary
 };
 
-/// (1) Collective. Carries alpha and its planes on to time t by the flow, in parts of a Courant
+/// (1) Collective. Holds alpha and its planes to the shape that the body's map tells, where it has
+/// one.
+void hold_shape(Body& body);
+
+/// (2) Collective. Carries alpha and its planes on to time t by the flow, in parts of a Courant
 /// number of 0.2, and sets alpha_mid.
 void advance_interface(Body& body, const FlowAround& flow, Real t);
 
-/// (3) Collective. Carries the jump of the pressure at the surface on with it. p: owned and halo.
+/// (4) Collective. Carries the jump of the pressure at the surface on with it. p: owned and halo.
 void advect_pressure_jump(CellField<Real>& p, const Body& body);
 
-/// (6) Collective. Strains the body over the time that `advance_interface` carried it and renews
+/// (7) Collective. Carries the map to the undeformed solid on, where one goes beside log B. Sets L
+/// on its cells where the flow has none.
+void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow);
+
+/// (8) Collective. Strains the body over the time that `advance_interface` carried it and renews
 /// what follows from alpha and B. Sets L on the cells that strain where the flow has none.
 /// Errors: Error{numerics} where B is beyond the range of the law.
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow);
 
-/// (9) Collective. Adds the elastic force and its counterpart in the face flux, the traction
+/// (11) Collective. Adds the elastic force and its counterpart in the face flux, the traction
 /// between two viscosities and the body force, where there are such.
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow);
 
-/// (10) Collective. Adds what keeps a step of dt stable, where elasticity is partly implicit.
+/// (12) Collective. Adds what keeps a step of dt stable, where elasticity is partly implicit.
 /// kappa: cleared by Body::semi_implicit_elasticity before. Sets L on the band where the flow has
 /// none.
 void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,

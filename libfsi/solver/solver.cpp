@@ -87,23 +87,25 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
 
 void Solver::step(Real dt) {
   const Real t = state_.t;
-  for (Body& body : bodies_) advance_interface(body, t + body.time_offset() * dt);  // (1)
-  separate_bodies();                                                                // (2)
-  for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);            // (3)
-  set_pressure_gradient(grad_p_, state_);                                           // (4)
-  set_velocity_gradient(L_, state_);                                                // (5)
+  for (Body& body : bodies_) hold_shape(body);                                      // (1)
+  for (Body& body : bodies_) advance_interface(body, t + body.time_offset() * dt);  // (2)
+  separate_bodies();                                                                // (3)
+  for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);            // (4)
+  set_pressure_gradient(grad_p_, state_);                                           // (5)
+  set_velocity_gradient(L_, state_);                                                // (6)
   clear_forces();
-  for (Body& body : bodies_) transport_elastic(body, L_);      // (6)
-  mix_viscosity(mu_);                                          // (7)
-  mix_density();                                               // (8)
-  for (Body& body : bodies_) add_elastic_force(force_, body);  // (9)
-  add_semi_implicit(kappa_, force_, dt);                       // (10)
-  add_body_force(force_, t + dt / 2);                          // (11)
-  balance_weight(state_);                                      // (12)
-  predict_momentum(state_.u, dt);                              // (13)
-  predict_flux(state_.phi, state_.u, dt);                      // (14)
-  project(state_, dt);                                         // (15)
-  hold_mean_velocity(state_, dt);                              // (16)
+  for (Body& body : bodies_) transport_memory(body, L_);       // (7)
+  for (Body& body : bodies_) transport_elastic(body, L_);      // (8)
+  mix_viscosity(mu_);                                          // (9)
+  mix_density();                                               // (10)
+  for (Body& body : bodies_) add_elastic_force(force_, body);  // (11)
+  add_semi_implicit(kappa_, force_, dt);                       // (12)
+  add_body_force(force_, t + dt / 2);                          // (13)
+  balance_weight(state_);                                      // (14)
+  predict_momentum(state_.u, dt);                              // (15)
+  predict_flux(state_.phi, state_.u, dt);                      // (16)
+  project(state_, dt);                                         // (17)
+  hold_mean_velocity(state_, dt);                              // (18)
   check(state_);
   state_.t += dt;
   ++state_.step;

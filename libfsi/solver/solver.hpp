@@ -149,12 +149,14 @@ class Solver {
 
  private:
   // The calls of a step: doc/theory/step.md. What each sets stands first.
+  void hold_shape(Body& body);
   void advance_interface(Body& body, Real t);
   void advect_pressure_jump(CellField<Real>& p, const Body& body);
   void separate_bodies();
   void set_pressure_gradient(CellField<Vec3>& grad_p, const State& state);
   void set_velocity_gradient(CellField<Tensor>& L, const State& state);
   void clear_forces();
+  void transport_memory(Body& body, CellField<Tensor>& L);
   void transport_elastic(Body& body, CellField<Tensor>& L);
   void mix_viscosity(FaceField<Real>& mu);
   void mix_density();
@@ -226,10 +228,10 @@ class Solver {
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
-    int advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
-        set_velocity_gradient, transport_elastic, mix_viscosity, mix_density, add_elastic_force,
-        add_semi_implicit, add_body_force, balance_weight, predict_momentum, predict_flux, project,
-        hold_mean_velocity, check;
+    int hold_shape, advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
+        set_velocity_gradient, transport_memory, transport_elastic, mix_viscosity, mix_density,
+        add_elastic_force, add_semi_implicit, add_body_force, balance_weight, predict_momentum,
+        predict_flux, project, hold_mean_velocity, check;
   };
 
   const Mesh& mesh_;

@@ -37,8 +37,8 @@ struct HoldReport {
 };
 
 /// Collective. Moves the fractions toward those of the solid whose surface is where the map puts
-/// it, {x : shape(xi(x)) < shift}: a material surface, which what carries alpha by the mean velocity
-/// of faces loses in the course of time. In a cell near it the surface is the plane
+/// it, {x : shape(xi(x)) < shift}: a material surface, which what carries alpha by the mean
+/// velocity of faces loses in the course of time. In a cell near it the surface is the plane
 ///
 ///   s + m . (x - x_c) = shift,   s = (shape(xi_c) + k h^2 / 24) / |g|,   m = g / |g|,
 ///   g = (I + grad d)^T . grad shape(xi_c)

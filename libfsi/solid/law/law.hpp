@@ -80,6 +80,11 @@ class Law {
   /// Collective. Elastic energy, sum G alpha W V; in plane strain B_zz = 1.
   Real energy(Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
               const Mesh& mesh) const;
+  /// Adds this rank's part of it.
+  void add_energy(Sum& sum, Real G, const CellField<SymTensor>& B, const CellField<Real>& alpha,
+                  const Mesh& mesh) const {
+    sum_(sum, G, B, alpha, mesh);
+  }
 
  private:
   static constexpr int roots = 50;  // of B: the last is I to round-off

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/flow/momentum.hpp"
 #include "libfsi/mesh/read.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/log_conformation.hpp"
 #include "libfsi/solid/reference_map.hpp"
 
@@ -65,8 +65,7 @@ Growth growth(const std::string& name, int steps) {
   FaceField<Real> phi(mesh);
   for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(velocity, mesh.Sf[f]);
   Real fastest = 0;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    fastest = std::max(fastest, courant_rate(phi, mesh, c));
+  for (Index c = 0; c < mesh.n_owned; ++c) fastest = std::max(fastest, courant_rate(phi, mesh, c));
   const Real dt = 0.5 / global_max(fastest);
 
   Kinematics k(mesh);
