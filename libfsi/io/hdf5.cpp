@@ -46,7 +46,8 @@ Hdf5Image::Hdf5Image() {
 
 Hdf5Image::~Hdf5Image() {
   const Quiet quiet;
-  if (file_ >= 0 && ok_) H5Fclose(file_);  // what a failed write left is not to be written again
+  if (file_ >= 0 && (ok_ || refused_))
+    H5Fclose(file_);  // what a failed write left is not to be written again
   if (memory_ >= 0) ::close(memory_);
 }
 
@@ -58,6 +59,14 @@ void Hdf5Image::group(const std::string& path) {
   ok_ = made.ok();
 }
 
+bool Hdf5Image::has_room(std::uint64_t size, std::span<const std::uint64_t> extent) {
+  constexpr std::uint64_t beside = 2048;  // what HDF5 writes of a set itself
+  for (const std::uint64_t n : extent) size *= n;
+  reserved_ += size + beside;
+  refused_ = ::ftruncate(memory_, static_cast<off_t>(reserved_)) != 0;
+  return !refused_;
+}
+
 std::uint64_t Hdf5Image::write(const std::string& path, Hdf5Id type,
                                std::span<const std::uint64_t> extent, const void* data) {
   if (!ok_) return 0;
@@ -66,7 +75,7 @@ std::uint64_t Hdf5Image::write(const std::string& path, Hdf5Id type,
   std::copy(extent.begin(), extent.end(), dims.begin());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), dims.data(), nullptr),
                      H5Sclose);
-  ok_ = space.ok();
+  ok_ = space.ok() && has_room(H5Tget_size(type), extent);
   if (!ok_) return 0;
   // No time of writing: the same values give the same bytes. Nothing but the values is written.
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -153,6 +162,7 @@ bool Hdf5Image::close() {
   const Quiet quiet;
   // A file that cannot be flushed cannot be closed either.
   ok_ = ok_ && file_ >= 0 && H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0 && H5Fclose(file_) >= 0;
+  if (refused_) H5Fclose(file_);
   file_ = -1;
   const off_t end = ::lseek(memory_, 0, SEEK_END);
   ok_ = ok_ && end > 0;

@@ -52,11 +52,16 @@ class Hdf5Image {
  private:
   std::uint64_t write(const std::string& path, Hdf5Id type, std::span<const std::uint64_t> extent,
                       const void* data);
+  /// Whether one more set of items of this size may be written: HDF5 can neither write nor close a
+  /// file that the system stops half-way.
+  bool has_room(std::uint64_t size, std::span<const std::uint64_t> extent);
   void attach(const std::string& object, const std::string& name, Hdf5Id type, std::size_t count,
               const void* data);
   int memory_ = -1;
   Hdf5Id file_ = -1;
   std::uint64_t size_ = 0;
+  std::uint64_t reserved_ = 0;  // bytes, at least those of the sets so far
+  bool refused_ = false;        // there is no room for the next one, and it was not begun
   bool ok_ = true;
 };
 
