@@ -17,7 +17,7 @@ namespace {
 /// that it ends with is not known before.
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
-constexpr Real elastic_max = 2.5;           // elastic waves: beyond they grow within a few steps
+constexpr Real elastic_max = 1.8;           // elastic waves: what is beyond grows
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 

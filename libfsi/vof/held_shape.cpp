@@ -67,7 +67,7 @@ void list_planes(const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
 /// change = what the planes, moved outward by shift, ask for; sums: of change V and of area.
 void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, const Mesh& mesh,
                  Real shift, HoldScratch& s) {
-  constexpr Real most = 0.1;
+  constexpr Real most = 0.05;
   std::array<Sum, 2> sums;
   s.change.resize(s.cells.size());
   for (std::size_t i = 0; i < s.cells.size(); ++i) {

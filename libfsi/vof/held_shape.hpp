@@ -44,8 +44,8 @@ struct HoldReport {
 ///   g = (I + grad d)^T . grad shape(xi_c)
 ///
 /// k = div grad shape the sum of the curvatures, which lie outside the plane by their mean over the
-/// cell. The change of a cell is at most a tenth of it in a call, times its weight. shift makes the
-/// sum of alpha V what it was, to round-off. alpha: owned and halo, before and after.
+/// cell. The change of a cell is at most a twentieth of it in a call, times its weight. shift makes
+/// the sum of alpha V what it was, to round-off. alpha: owned and halo, before and after.
 HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                       HoldScratch& scratch);
 

@@ -146,7 +146,7 @@ TEST(EnergyBalance, ThePlatesDoWhatViscosityTakes) {
   EXPECT_EQ(energy.made(), 0);
 }
 
-// A stiff disc makes no energy at the steps that the solver allows; at steps 1.6 times as long it
+// A stiff disc makes no energy at the steps that the solver allows; at steps 2.5 times as long it
 // makes it from nothing, and the balance tells.
 TEST(EnergyBalance, ToldOfAStiffSolidInTooLongSteps) {
   const auto made = [](Real G, Real longer) {
@@ -158,17 +158,17 @@ TEST(EnergyBalance, ToldOfAStiffSolidInTooLongSteps) {
     solver.start([](const Vec3&) { return Vec3{}; });
     solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.5, 0}));
     EnergyBalance energy(solver);
-    for (int i = 0; i < 400; ++i) {
-      const Real dt = solver.advance(std::min(
-          {solver.advective_dt(0.5), longer * solver.elastic_dt(), solver.boundary_dt(0.5)}));
-      if (dt == 0) break;
+    for (int i = 0; i < 150; ++i) {
+      const Real dt = std::min(
+          {solver.advective_dt(0.5), longer * solver.elastic_dt(), solver.boundary_dt(0.5)});
+      solver.step(dt);
       energy.add(solver, dt);
     }
     return energy.part_made();
   };
   EXPECT_LE(made(0.1, 1), 0.05);
   EXPECT_LE(made(1e3, 1), 1e-3);
-  EXPECT_GE(made(1e3, 1.6), 0.3);
+  EXPECT_GE(made(1e3, 2.5), 0.3);
 }
 
 }  // namespace
