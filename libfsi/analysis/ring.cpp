@@ -42,7 +42,10 @@ void cut(const std::array<Vec3, 3>& q, const Visit& visit) {
   constexpr Real step = 2 * pi / n_azimuths;
   const int last = static_cast<int>(std::ceil((first + high) / step));
   for (int k = static_cast<int>(std::floor((first + low) / step)); k <= last; ++k) {
-    const Real c = std::cos(step * k), s = std::sin(step * k);
+    // In a plane of symmetry of the mesh the surface has edges: round-off is not to tell their
+    // side.
+    constexpr Real beside = 1e-6;
+    const Real c = std::cos(step * k + beside), s = std::sin(step * k + beside);
     std::array<Point, 3> ends;
     int n = 0;
     for (std::size_t i = 0; i < 3; ++i) {
