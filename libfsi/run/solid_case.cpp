@@ -125,10 +125,10 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   Options& read = none && !options.help() ? aside : options;
   read_material(read, of, physics, solid.solid);
   solid.solid.kinematics = read_kinematics(read, of);
-  solid.solid.memory =
-      read.flag(of + "memory", true,
-                "a map to the undeformed solid holds its shape and strain to each other; not with "
-                "left_cauchy_green");
+  solid.solid.memory = read.flag(
+      of + "memory", true,
+      "a map to the undeformed solid holds its shape and strain to each other; on quads and "
+      "hexes, not with left_cauchy_green");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));

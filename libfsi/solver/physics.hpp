@@ -32,8 +32,9 @@ struct Solid {
   Vec3 acceleration{};  ///< of a body force that acts on this solid alone
   solid::Law law{};     ///< of its elastic stress
   Real rho = 0;         ///< density; 0: that of the fluid
-  /// Whether a map to the undeformed solid holds shape and strain to each other; left_cauchy_green
-  /// has none.
+  /// Whether a map to the undeformed solid holds shape and strain to each other; not with
+  /// left_cauchy_green, nor on meshes with triangles, tetrahedra or prisms, where the map's
+  /// gradient is too rough.
   bool memory = true;
 };
 

@@ -93,12 +93,16 @@ HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& m
   HoldReport report;
   constexpr int rounds = 6;
   constexpr Real enough = 1e-10;  // of the volume; the rest goes to the cut cells
+  constexpr Real left = 1e-5;     // more cannot go there
+  Real off = volume;
   for (int i = 0; i < rounds; ++i) {
     std::array<Real, 2> totals{};
     set_changes(totals, alpha, mesh, report.shift, s);
-    if (std::abs(totals[0]) <= enough * volume || totals[1] <= 0) break;
+    off = totals[0];
+    if (std::abs(off) <= enough * volume || totals[1] <= 0) break;
     report.shift -= totals[0] / totals[1];
   }
+  if (!(std::abs(off) <= left * volume)) return {};  // no shift does: the map tells no shape
   std::array<Sum, 2> sums;  // volume added, weight of those who give it back
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
