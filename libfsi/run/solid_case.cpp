@@ -75,9 +75,15 @@ void read_material(Options& options, const std::string& of, const Physics& physi
   require(density >= 0.1 * physics.rho && density <= 20 * physics.rho,
           "option -" + of + "density: must be 0.1 to 20 times -fluid_density");
   solid.rho = density;
-  solid.mu = options.real(
-      of + "viscosity", physics.mu_f,
-      {.help = "dynamic viscosity of the solid", .unit = "mass / (length time)", .min = 0});
+  solid.mu =
+      options.real(of + "viscosity", physics.mu_f,
+                   {.help = "dynamic viscosity of the solid, at most 200 times that of the fluid",
+                    .unit = "mass / (length time)",
+                    .min = 0});
+  require(solid.mu <= 200 * physics.mu_f,  // doc/verification/shape.md
+          "option -" + of +
+              "viscosity: must be at most 200 times -fluid_viscosity; for a body that is " +
+              "nearly rigid take a large -" + of + "shear_modulus");
   solid.G = options.real(of + "shear_modulus", 1,
                          {.help = "shear modulus G", .unit = "mass / (length time^2)", .min = 0});
   solid.law = solid::read_law(options, of + "law");

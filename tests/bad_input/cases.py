@@ -63,6 +63,8 @@ OPTIONS = [
     option("viscosity infinite", "-fluid_viscosity inf", "-fluid_viscosity", "inf"),
     option("viscosity negative", "-fluid_viscosity -1", "-fluid_viscosity", "-1", "value > 0"),
     option("viscosity a word", "-fluid_viscosity thick", "-fluid_viscosity", "thick"),
+    option("solid too viscous", "-solid_shape sphere -solid_viscosity 2.1", "-solid_viscosity",
+           "200 times", "-solid_shear_modulus"),
     option("solid too heavy", "-solid_shape sphere -solid_density 21", "-solid_density",
            "0.1 to 20 times -fluid_density"),
     option("density zero", "-fluid_density 0", "-fluid_density", "value > 0"),
