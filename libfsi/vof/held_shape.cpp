@@ -45,7 +45,8 @@ Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh&
   return least;
 }
 
-void list_planes(const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
+void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& mesh,
+                 HoldScratch& s) {
   s.cells.clear(), s.planes.clear(), s.weight.clear();
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     if (map.weight[i] <= 0) continue;
@@ -53,8 +54,10 @@ void list_planes(const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
     const Real h = cell_size(mesh, c);
     Vec3 xi = mesh.C[c] + map.d[c];
     const Real value = nearest_image(xi, s.laps, map.shape, mesh);
-    constexpr Real near = 2;  // cells
-    if (std::abs(value) > near * h) continue;
+    // Whole cells on the right side and a cell away from the surface have nothing to change.
+    constexpr Real near = 2, away = 1.2;  // cells
+    const Real whole = value > 0 ? 0 : 1;
+    if (std::abs(value) > near * h || (alpha[c] == whole && std::abs(value) > away * h)) continue;
     const Distance at = distance(map.shape, xi, value, 1e-3 * h, mesh.dim);
     const Vec3 g = at.gradient + dot(transpose(map.gradient[c]), at.gradient);
     const Real slope = norm(g), k = std::clamp(at.laplacian, -1 / h, 1 / h);
@@ -86,14 +89,14 @@ void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, cons
 
 HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                       HoldScratch& s) {
-  list_planes(map, mesh, s);
+  list_planes(map, alpha, mesh, s);
   Sum solid, moved;
   for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
   const Real volume = solid.total();
   HoldReport report;
   constexpr int rounds = 6;
-  constexpr Real enough = 1e-10;  // of the volume; the rest goes to the cut cells
-  constexpr Real left = 1e-5;     // more cannot go there
+  constexpr Real enough = 1e-7;  // of the volume; the rest goes to the cut cells
+  constexpr Real left = 1e-5;    // more cannot go there
   Real off = volume;
   for (int i = 0; i < rounds; ++i) {
     std::array<Real, 2> totals{};
