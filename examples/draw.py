@@ -176,15 +176,19 @@ PANELS = (
 )
 
 
+PANEL_COLUMNS = {title: columns for title, _, columns, _ in PANELS}
+
+
 def draw_series(folder, tables):
-    """Every column that a run has and that changes, against time."""
+    """Every column that a run has and that changes, against time; of openings the steady ones too."""
     shown = []
     for title, name, columns, logarithmic in PANELS:
         data = tables[name]
         columns = [c for wanted in columns for c in data
                    if c == wanted or (wanted.endswith("*") and c.startswith(wanted[:-1]))]
+        of_openings = any(wanted.endswith("*") for wanted in PANEL_COLUMNS[title])
         lines = [(c, data[c]) for c in columns
-                 if np.isfinite(data[c]).any() and np.ptp(data[c]) > 0]
+                 if np.isfinite(data[c]).any() and (of_openings or np.ptp(data[c]) > 0)]
         if lines:
             shown.append((title, data["t"], lines, logarithmic))
     if not shown:
