@@ -236,7 +236,15 @@ std::string differences(const std::string& before, const std::string& now) {
 }
 
 void put_solids(Solver& solver, const Case& setup) {
-  for (const SolidSetup& s : setup.solids) solver.put_solid(s.solid);
+  for (const SolidSetup& s : setup.solids) {
+    solver.put_solid(s.solid);
+    const Body& body = solver.bodies().back();
+    if (rank() == 0 && s.solid.memory && !body.held && body.extended())
+      std::printf(
+          "%s: no memory of its shape on triangles, tetrahedra and prisms: a shape under load "
+          "creeps\n",
+          s.shape_name.c_str());
+  }
 }
 
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {

@@ -128,15 +128,16 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
 /// Extremes of det grad xi where solid fills half a cell or more: how far the map's own volume
 /// went.
 void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::ReferenceMap& map,
-             const CellField<Real>& alpha, const Mesh& mesh) {
+             const Body& body) {
   Real low = std::numeric_limits<Real>::max(), high = -low;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    if (!(alpha[c] >= solid::alpha_known)) continue;
+  for (Index c = 0; c < body.mesh.n_owned; ++c) {
+    if (!(body.alpha[c] >= solid::alpha_known)) continue;
     low = std::min(low, map.volume_ratio(c)), high = std::max(high, map.volume_ratio(c));
   }
   row.push_back({"map_det_min", global_min(low)});
   row.push_back({"map_det_max", global_max(high)});
   row.push_back({"shape_energy", soundness.shape_energy, Course::shape});
+  row.push_back({"shape_moved", body.shape_moved, Course::step});
 }
 
 /// Number of a limit in flow.csv.
@@ -240,7 +241,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
   row.push_back({"elastic_energy", soundness_.elastic_energy, Course::shape});
-  if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body.alpha, mesh);
+  if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body);
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

@@ -129,7 +129,7 @@ void Body::hold_shape() {
   const solid::ReferenceMap& m = *map();
   trust.clear();
   for (const Index c : m.cells()) trust.push_back(m.trust(c));
-  hold = vof::hold_shape(
+  shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);

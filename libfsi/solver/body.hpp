@@ -171,9 +171,9 @@ struct Body {
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the map's shape
   vof::HoldScratch hold_scratch;
-  std::vector<Real> trust;        ///< scratch of that
-  vof::HoldReport hold;           ///< of the last step
-  vof::Filled filled;             ///< volume and its error at the start
+  std::vector<Real> trust;  ///< scratch of that
+  Real shape_moved = 0;     ///< volume that the last hold_shape moved, in parts of the solid's
+  vof::Filled filled;       ///< volume and its error at the start
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
   std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry

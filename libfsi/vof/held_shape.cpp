@@ -87,25 +87,23 @@ void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, cons
 
 }  // namespace
 
-HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
-                      HoldScratch& s) {
+Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
   list_planes(map, alpha, mesh, s);
   Sum solid, moved;
   for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
   const Real volume = solid.total();
-  HoldReport report;
   constexpr int rounds = 6;
   constexpr Real enough = 1e-7;  // of the volume; the rest goes to the cut cells
   constexpr Real left = 1e-5;    // more cannot go there
-  Real off = volume;
+  Real off = volume, shift = 0;
   for (int i = 0; i < rounds; ++i) {
     std::array<Real, 2> totals{};
-    set_changes(totals, alpha, mesh, report.shift, s);
+    set_changes(totals, alpha, mesh, shift, s);
     off = totals[0];
     if (std::abs(off) <= enough * volume || totals[1] <= 0) break;
-    report.shift -= totals[0] / totals[1];
+    shift -= totals[0] / totals[1];
   }
-  if (!(std::abs(off) <= left * volume)) return {};  // no shift does: the map tells no shape
+  if (!(std::abs(off) <= left * volume)) return 0;  // no shift does: the map tells no shape
   std::array<Sum, 2> sums;  // volume added, weight of those who give it back
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
@@ -122,8 +120,7 @@ HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& m
   const Real factor = totals[1] > 0 ? std::clamp(-totals[0] / totals[1], Real{-1}, Real{1}) : 0;
   for (const Index c : s.cells) alpha[c] += factor * alpha[c] * (1 - alpha[c]);
   mesh.halo.update(alpha);
-  report.moved = volume > 0 ? totals[2] / volume : 0;
-  return report;
+  return volume > 0 ? totals[2] / volume : 0;
 }
 
 }  // namespace fsi::vof

@@ -30,12 +30,6 @@ struct HoldScratch {
   Vec3 laps;  ///< periods that the solid went through
 };
 
-/// What a call changed.
-struct HoldReport {
-  Real moved = 0;  ///< volume that changed cells, in parts of the solid's
-  Real shift = 0;  ///< by which the mapped surface was moved outward to enclose the solid's volume
-};
-
 /// Collective. Moves the fractions toward those of the solid whose surface is where the map puts
 /// it, {x : shape(xi(x)) < shift}: a material surface, which what carries alpha by the mean
 /// velocity of faces loses in the course of time. In a cell near it the surface is the plane
@@ -45,8 +39,10 @@ struct HoldReport {
 ///
 /// k = div grad shape the sum of the curvatures, which lie outside the plane by their mean over the
 /// cell. The change of a cell is at most a twentieth of it in a call, times its weight. shift makes
-/// the sum of alpha V what it was, to round-off. alpha: owned and halo, before and after.
-HoldReport hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
-                      HoldScratch& scratch);
+/// the sum of alpha V what it was, to round-off; where none does to 1e-5 of it nothing is changed.
+/// alpha: owned and halo, before and after. Returns the volume that changed cells, in parts of the
+/// solid's; 0: nothing was held.
+Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
+                HoldScratch& scratch);
 
 }  // namespace fsi::vof

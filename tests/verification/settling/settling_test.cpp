@@ -4,15 +4,12 @@
 //   Lambda = -ln k - 0.9157 + 1.7244 k^2 - 1.7302 k^4 + 2.4056 k^6 - 4.5913 k^8,
 // so that U = (rho_s - rho_f) g a^2 Lambda / (4 mu).
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "libfsi/core/parallel.hpp"
-#include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
+#include "tests/verification/settling/settle.hpp"
 
 namespace fsi {
 namespace {
@@ -43,18 +40,7 @@ Real speed(Real ratio, Index n, bool triangles) {
   solver.put_solid(
       {.shape = shapes::translate(shapes::sphere(a), {1, 0.5, 0}), .G = G, .mu = mu, .rho = ratio});
   const Real end = 0.2 * slower(ratio);
-  while (solver.state().t < end) {
-    const Real dt =
-        std::min({end / 50, solver.advective_dt(0.5), solver.carried_dt(), solver.elastic_dt()});
-    EXPECT_GT(solver.advance(dt), 0) << solver.report().failure;
-    if (!solver.report().failure.empty()) return 0;
-  }
-  Sum moved, volume;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    moved.add(mesh.V[c] * solver.body()->alpha[c] * solver.state().u[c].x);
-    volume.add(mesh.V[c] * solver.body()->alpha[c]);
-  }
-  const Real u = moved.total() / volume.total();
+  const Real u = test::settled_speed(solver, end, 50);
   std::printf("disc of density %g, %d %s between the plates: U %.5f, over Faxen's %.4f\n", ratio, n,
               triangles ? "pairs of triangles" : "cells", u, u / exact(ratio));
   return u / exact(ratio);

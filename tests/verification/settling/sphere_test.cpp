@@ -4,16 +4,13 @@
 //   K = (1 - 0.75857 k^5) / (1 - 2.1050 k + 2.0865 k^3 - 1.7068 k^5 + 0.72603 k^6) [Haberman58],
 // by less than half a percent too fast at k = 0.4.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/read.hpp"
-#include "libfsi/solver/solver.hpp"
+#include "tests/verification/settling/settle.hpp"
 
 namespace fsi {
 namespace {
@@ -44,18 +41,7 @@ Real speed(Real ratio, const std::string& name) {
                     .mu = mu,
                     .rho = ratio});
   constexpr Real end = 0.3;
-  while (solver.state().t < end) {
-    const Real dt =
-        std::min({end / 60, solver.advective_dt(0.5), solver.carried_dt(), solver.elastic_dt()});
-    EXPECT_GT(solver.advance(dt), 0) << solver.report().failure;
-    if (!solver.report().failure.empty()) return 0;
-  }
-  Sum moved, volume;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    moved.add(mesh.V[c] * solver.body()->alpha[c] * solver.state().u[c].x);
-    volume.add(mesh.V[c] * solver.body()->alpha[c]);
-  }
-  const Real u = moved.total() / volume.total();
+  const Real u = test::settled_speed(solver, end, 60);
   if (rank() == 0)
     std::printf(
         "sphere of density %g in the tube %s: U %.5f after %lld steps, over the exact %.4f\n",
