@@ -37,6 +37,12 @@ struct Contact {
   const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
 };
 
+/// How the surface cuts the faces, where the elastic force knows it.
+struct CutFaces {
+  const FaceField<Real>& alpha_f;  ///< part of solid between the centres of the two cells
+  const FaceField<Vec3>& normal;   ///< of the surface
+};
+
 class ReferenceMap;
 
 /// The flow, frozen over a step of the solid.
@@ -49,6 +55,7 @@ struct FlowSnapshot {
   /// What strains the solid's cells, owned (InterfaceGradient); none: L, u and phi do.
   const CellField<Tensor>* strain = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere
+  const CutFaces* cuts = nullptr;    ///< none: the strain is not bounded by the work of the force
   Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)
   Real recovery = 0;                 ///< rate against the solid's viscosity, G / mu_s
   /// What remembers the undeformed solid, at the end of the step; none: nothing does.

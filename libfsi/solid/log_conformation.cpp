@@ -8,6 +8,7 @@
 #include "libfsi/solid/one_sided.hpp"
 #include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/solenoidal.hpp"
+#include "libfsi/solid/work_bound.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -51,24 +52,31 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
   return p;
 }
 
-void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot) {
+void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   const auto u_at = [&](Index f) -> const Vec3* {
     const Index b = f - mesh_.n_internal;
     return snapshot.contact && snapshot.contact->touched[b] ? &snapshot.contact->u_b[b] : nullptr;
   };
+  // T goes with log B, here half a step on
+  const auto bounded = [&](const Tensor& L, Index c) {
+    if (snapshot.cuts == nullptr) return L;
+    const Tensor excess = excess_of_work(L, snapshot, alpha, mesh_, c);
+    return bound_by_work(L, excess, psi[c] + (dt / 2) * log_rate(L, psi[c]));
+  };
+  const auto of_own_side = [&](Index c) {
+    if (snapshot.strain) return (*snapshot.strain)[c];
+    const Tensor L = one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c);
+    return remove_normal_divergence(L, alpha, mesh_, c);
+  };
   L_.clear();
-  for (const Index c : known_.core()) {
-    if (snapshot.strain) {
-      L_.push_back((*snapshot.strain)[c]);
-    } else if (inner(c)) {
-      L_.push_back(flux_consistent_gradient(snapshot, mesh_, c));
-    } else {
-      const Tensor L = one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c);
-      L_.push_back(remove_normal_divergence(L, alpha, mesh_, c));
-    }
-  }
+  for (const Index c : known_.core())
+    if (!inner(c))
+      L_.push_back(bounded(of_own_side(c), c));
+    else
+      L_.push_back(snapshot.strain ? (*snapshot.strain)[c]
+                                   : flux_consistent_gradient(snapshot, mesh_, c));
 }
 
 Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
@@ -134,7 +142,7 @@ Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<S
 
 Strain LogConformation::transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot,
                                   Real dt, CellField<SymGradient>& grad) {
-  set_L(alpha, snapshot);
+  set_L(alpha, snapshot, dt);
   return in_parts(
       dt, [&] { return rate(snapshot, grad); },
       [&](Real part) { return advance(snapshot, part, grad); });

@@ -77,7 +77,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
     // less mu_s, as the solid's own compact viscous term does its part
     if (solid.one_sided) {
-      e = std::max(2 * e - solid.alpha[f] * solid.mu_s, Real{0});
+      e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
       kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
     } else if (simplex_) {
       e *= 2;
@@ -86,10 +86,13 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
       if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
     }
-    // e g ((u_N - u_P) - (L_f . d))
+    // e g (u_N - u_P - L_f . d), where it takes energy from u_N - u_P - W . d, W the spin of L_f
     const Real w = part_of_N(solid, weights, mesh_, f);
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
-    const Vec3 flux = e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(L_f, mesh_.d[f]));
+    const Tensor spin = 0.5 * (L_f + -1.0 * transpose(L_f));
+    const Vec3 rise = solid.u[N] - solid.u[P];
+    const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
+    if (dot(flux, rise - dot(spin, mesh_.d[f])) < 0) continue;
     force[P] += (1 / mesh_.V[P]) * flux;
     force[N] -= (1 / mesh_.V[N]) * flux;
   }

@@ -56,10 +56,13 @@ struct ElasticTerms {
 /// around, with the larger K = sum_f g |d|^2 / (2 V) of the two cells: a velocity that differs from
 /// all neighbours' then changes by no more than 1.5 of itself in a step, whatever the shape of its
 /// cell (K = dim on squares and regular simplices, 10 and more on slivers). Triangles and
-/// tetrahedra, whose gradient has more such modes, need twice the root and all of it. With L from
+/// tetrahedra, whose gradient has more such modes, need all of it. With L from
 /// the cell's own side (sided) kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m
 /// where that is positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n.
 /// Either costs an error of first order in dt. Without `kink` the mean is that of the face.
+/// A face where the flux would give energy to the strain, its part along u_N - u_P less the spin of
+/// avg L times d negative, has none: L of one side, or fitted, is no mean of the faces' gradients.
+/// A map on triangles and tetrahedra needs twice the root.
 class SemiImplicitElasticity {
  public:
   /// Collective.

@@ -17,7 +17,7 @@ namespace {
 /// that it ends with is not known before.
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
-constexpr Real elastic_max = 1.8;           // elastic waves: what is beyond grows
+constexpr Real elastic_max = 1.2;           // of what elastic waves allow; beyond they grow
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
@@ -40,7 +40,7 @@ Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
   if (body.advected.remaining > fraction_excess_max)
     return {"the fraction of " + which + " left [0, 1]", Term::fraction, &body};
   if (!body.semi_implicit()) return {};
-  if (dt > elastic_max * elastic_time(body))
+  if (dt > elastic_max * body.elastic_dt(elastic_time(body), physics_.mu_f))
     return {which + " became too stiff for the step", Term::elasticity, &body};
   if (dt > strain_dt(solid::strain_max) || global_max(body.strain.of_part) > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};

@@ -97,9 +97,11 @@ struct Body {
   Real time_offset() const {
     return std::visit([](const auto& k) { return k.time_offset; }, kinematics);
   }
-  /// The longest step in units of the time in which the elastic wave passes a cell.
-  Real elastic_number() const {
-    return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
+  /// The longest step where the elastic wave passes a cell in `time`, beside a fluid of viscosity
+  /// mu_f.
+  Real elastic_dt(Real time, Real mu_f) const {
+    const Real reynolds = G * time / std::min(mu, mu_f);  // of the wave: rho c h / mu
+    return time * std::visit([&](const auto& k) { return k.elastic_number(reynolds); }, kinematics);
   }
   /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
   /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches

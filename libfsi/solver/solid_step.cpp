@@ -196,6 +196,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
+  const solid::CutFaces cuts{body.alpha_f, body.normal_f};
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
                                      .u = by_flux ? flow.by_flux->u : flow.u,
                                      .L = by_flux ? flow.by_flux->L : L,
@@ -203,6 +204,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                      .weights = body.weights,
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
+                                     .cuts = body.extended() ? &cuts : nullptr,
                                      .wave_speed = std::sqrt(body.G / body.rho),
                                      .recovery = body.G / body.mu,
                                      .memory = body.remembers() ? &*body.memory : nullptr};

@@ -1,0 +1,33 @@
+#pragma once
+// A bound for the strain of the solid's outermost cells: the work that its force takes up.
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
+
+namespace fsi::solid {
+
+/// T : L, the power of the stress T per volume.
+constexpr Real power(const SymTensor& T, const Tensor& L) {
+  return T.xx * L.xx + T.yy * L.yy + T.zz * L.zz + T.xy * (L.xy + L.yx) + T.xz * (L.xz + L.zx) +
+         T.yz * (L.yz + L.zy);
+}
+
+/// M - L, where M is the gradient on which the elastic force works in known cell c. With the stress
+/// T there and in what goes on with it around the solid, ElasticForce takes from the flow, where it
+/// takes W T : L from a linear one of gradient L on the same faces, W T : (M - L) more:
+///   W (M - L) = sum_f w [alpha_f e (x) S_f + (alpha' - alpha_f) (e . S_f) n (x) n],
+///   e = u_N - u_P - L . d,   W = sum_f w alpha' d . S_f / dim,
+/// alpha' the mean of both cells, n the surface's normal, w the cell's part of the face's stress, 1
+/// where the other cell goes on with it. Zero where no face has a part of it.
+Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
+                      const Mesh& mesh, Index c);
+
+/// L - chi T,  chi = max(0, -T : excess) / (T : T): gone is the part of L by which the cell would
+/// take up more energy than the force takes from the flow.
+inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {
+  const Tensor t{T.xx, T.xy, T.xz, T.xy, T.yy, T.yz, T.xz, T.yz, T.zz};
+  const Real made = -power(T, excess), square = power(T, t);
+  return made > 0 && square > 0 ? L + (-made / square) * t : L;
+}
+
+}  // namespace fsi::solid
