@@ -1,0 +1,254 @@
+"""Surfaces as triangles: the solid's, the wall of the vessel, where a field has a value."""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import cells
+
+
+@dataclass
+class Surface:
+    """points [n, 3], triangles [m, 3] and values at the points, by name."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+    values: dict = field(default_factory=dict)
+
+    def area_vectors(self):
+        """Of each triangle: its normal, as long as its area."""
+        a, b, c = np.moveaxis(self.points[self.triangles], 1, 0)
+        return 0.5 * np.cross(b - a, c - a)
+
+    def area(self):
+        return np.linalg.norm(self.area_vectors(), axis=1).sum()
+
+    def volume(self):
+        """What a closed surface encloses."""
+        middle = self.points[self.triangles].mean(axis=1) - self.points.mean(axis=0)
+        return np.einsum("ij,ij->", middle, self.area_vectors()) / 3
+
+    def normals(self):
+        """Unit vectors at the points, outward where the triangles turn that way."""
+        total = np.zeros_like(self.points)
+        for corner in range(3):
+            for axis in range(3):
+                total[:, axis] += np.bincount(self.triangles[:, corner], self.area_vectors()[:, axis],
+                                              minlength=len(self.points))
+        return total / (np.linalg.norm(total, axis=1, keepdims=True) + 1e-300)
+
+    def edges(self):
+        """Pairs of points [k, 2], each once, and of how many triangles each is a side."""
+        sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        return np.unique(sides, axis=0, return_counts=True)
+
+    def moved(self, shift):
+        return Surface(self.points + shift, self.triangles, self.values)
+
+    def part(self, chosen):
+        """The triangles chosen, with the points that they need."""
+        kept, number = np.unique(self.triangles[chosen], return_inverse=True)
+        return Surface(self.points[kept], number.reshape(-1, 3),
+                       {name: value[kept] for name, value in self.values.items()})
+
+
+def isosurface(snapshot, name="alpha", level=0.5, carry=()):
+    """The surface name = level in three dimensions; its normals point to smaller values.
+
+    The fields named in `carry` come along as values at the points.
+    """
+    mesh = snapshot.mesh
+    value = snapshot.at_points(name) - level
+    least, most = mesh.extent(value)
+    parts = cells.Simplices(mesh, np.flatnonzero((least <= 0) & (most >= 0)))
+    value, places = parts.extend(value), parts.extend(mesh.points)
+    ends, part, triangles = cells.crossing(parts.corners, value)
+    surface = Surface(cells.between(places, ends, part), triangles)
+    for other in carry:
+        surface.values[other] = cells.between(parts.extend(snapshot.at_points(other)), ends, part)
+    # Each end is on one side of the level: from the higher to the lower one is outward.
+    outward = (places[ends[:, 1]] - places[ends[:, 0]]) * np.sign(value[ends[:, 0]])[:, None]
+    wrong = np.einsum("ij,ij->i", surface.area_vectors(), outward[triangles].sum(axis=1)) < 0
+    surface.triangles[wrong] = surface.triangles[wrong][:, ::-1]
+    return surface
+
+
+def solid_surface(snapshot, carry=(), about=None, rounds=100):
+    """The surface alpha = 0.5, smooth and in one piece across the seams of a period.
+
+    A closed surface encloses the volume of the solid. It lies where its middle is nearest to the place `about` (default: within the mesh).
+    """
+    surface = isosurface(snapshot, "alpha", 0.5, [name for name in carry if name in snapshot])
+    if len(surface.triangles) == 0:
+        return surface
+    surface = in_one_piece(surface, snapshot.mesh, about)
+    surface = smooth(subdivide(smooth(surface, rounds)), 10)
+    if (surface.edges()[1] == 2).all():
+        # Means over cells round off what is curved: give the volume back along the normals.
+        for _ in range(3):
+            lost = (snapshot.volume_of_solid() - surface.volume()) / surface.area()
+            surface = surface.moved(lost * surface.normals())
+    return surface
+
+
+def section(surface, normal, level):
+    """The line in which the plane normal = level cuts a surface, as segments [n, 2, 3]."""
+    ends, part, segments = cells.crossing(surface.triangles, surface.points[:, normal] - level)
+    return cells.between(surface.points, ends, part)[segments]
+
+
+def solid_outline(snapshot, rounds=30):
+    """The line alpha = 0.5 in two dimensions, smooth, as segments [n, 2, 3].
+
+    A closed line encloses the area of the solid.
+    """
+    parts = cells.Simplices(snapshot.mesh)
+    value, places = (parts.extend(v) for v in (snapshot.at_points("alpha") - 0.5, snapshot.mesh.points))
+    ends, part, edges = cells.crossing(parts.corners, value)
+    if len(edges) == 0:
+        return np.zeros((0, 2, 3))
+    higher = places[ends[:, 0]] * (value[ends[:, 0]] > 0)[:, None] + \
+        places[ends[:, 1]] * (value[ends[:, 1]] > 0)[:, None]
+    points = cells.between(places, ends, part)
+    count = np.bincount(edges.ravel(), minlength=len(points))
+    outward = points - higher
+    points = relaxed(points, edges, rounds, np.flatnonzero(count == 1))
+    along = points[edges[:, 1]] - points[edges[:, 0]]
+    normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    turned = np.einsum("ij,ij->i", normal, outward[edges].sum(axis=1)[:, :2]) < 0
+    edges[turned] = edges[turned][:, ::-1]
+    if (count == 2).all():
+        a, b = points[edges[:, 0]], points[edges[:, 1]]
+        area = 0.5 * np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+        normal[turned] *= -1
+        lost = (snapshot.volume_of_solid() - area) / np.linalg.norm(along, axis=1).sum()
+        at = np.stack([np.bincount(edges.ravel(), np.repeat(normal[:, i], 2), minlength=len(points))
+                       for i in (0, 1)], axis=1)
+        points[:, :2] += lost * at / (np.linalg.norm(at, axis=1, keepdims=True) + 1e-300)
+    return points[edges]
+
+
+def in_one_piece(surface, mesh, about=None):
+    """Moves by a period what lies beyond the widest gap, and joins the points at the seam."""
+    points = surface.points.copy()
+    for axis in np.flatnonzero(mesh.period):
+        length = mesh.period[axis]
+        order = np.sort(points[:, axis])
+        gaps = np.append(np.diff(order), order[0] + length - order[-1])
+        if gaps.argmax() < len(order) - 1:
+            # The triangles lie within the mesh, so that none of them spans the gap.
+            points[points[:, axis] > order[gaps.argmax()], axis] -= length
+        middle = 0.5 * (points[:, axis].min() + points[:, axis].max())
+        target = about[axis] if about is not None else 0.5 * (mesh.low[axis] + mesh.high[axis])
+        points[:, axis] += length * np.round((target - middle) / length)
+    moved = Surface(points, surface.triangles, surface.values)
+    return joined(moved, 1e-6 * np.ptp(mesh.points, axis=0).max()) if mesh.period.any() else moved
+
+
+def joined(surface, size):
+    """Points that are nearer to each other than `size` become one."""
+    _, first, number = np.unique(np.round(surface.points / size), axis=0, return_index=True,
+                                 return_inverse=True)
+    triangles = number.ravel()[surface.triangles]
+    flat = (triangles[:, 0] == triangles[:, 1]) | (triangles[:, 1] == triangles[:, 2]) | \
+        (triangles[:, 2] == triangles[:, 0])
+    return Surface(surface.points[first], triangles[~flat],
+                   {name: value[first] for name, value in surface.values.items()})
+
+
+def smooth(surface, rounds):
+    """Takes out steps of the size of a cell and keeps volume and shape; an open edge stays."""
+    edges, count = surface.edges()
+    points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel())
+    values = {}
+    for name, value in surface.values.items():
+        values[name] = relaxed(value[:, None], edges, 6)[:, 0] if value.ndim == 1 else value
+    return Surface(points, surface.triangles, values)
+
+
+def relaxed(places, edges, rounds, fixed=()):
+    """Each round moves what stands at the ends of edges towards the mean of its neighbours and back
+    [Taubin95]."""
+    number = len(places)
+    degree = np.maximum(np.bincount(edges.ravel(), minlength=number), 1)[:, None]
+    free = np.ones((number, 1))
+    free[np.asarray(fixed, int)] = 0
+    for _ in range(rounds):
+        for share in (0.5, -0.53):
+            mean = np.stack([np.bincount(edges[:, 0], column[edges[:, 1]], minlength=number) +
+                             np.bincount(edges[:, 1], column[edges[:, 0]], minlength=number)
+                             for column in places.T], axis=1) / degree
+            places = places + share * free * (mean - places)
+    return places
+
+
+def subdivide(surface):
+    """Each triangle as four."""
+    edges, _ = surface.edges()
+    number, count = len(surface.points), len(edges)
+    sides = np.sort(surface.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
+    key = edges[:, 0] * number + edges[:, 1]
+    middle = number + np.searchsorted(key, sides[..., 0] * number + sides[..., 1])
+    (a, b, c), (ab, bc, ca) = surface.triangles.T, middle.T
+    triangles = np.concatenate([np.stack(t, axis=1) for t in
+                                ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    assert count == 0 or triangles.max() == number + count - 1
+
+    def halves(values):
+        return np.concatenate([values, values[edges].mean(axis=1)])
+    return Surface(halves(surface.points), triangles,
+                   {name: halves(value) for name, value in surface.values.items()})
+
+
+def outside(mesh):
+    """The outer faces of a mesh in three dimensions, normals outward."""
+    faces = {3: [np.zeros((0, 3), int)], 4: [np.zeros((0, 4), int)]}
+    for _, corners, kind in mesh.groups():
+        for face in cells.FACES[kind]:
+            faces[len(face)].append(corners[:, face])
+    outer = {}
+    for size, found in faces.items():
+        found = np.concatenate(found)
+        _, first, count = np.unique(np.sort(found, axis=1), axis=0, return_index=True,
+                                    return_counts=True)
+        outer[size] = found[first[count == 1]]
+    quads = outer[4]
+    triangles = np.concatenate([outer[3], quads[:, :3], quads[:, [0, 2, 3]]])
+    return Surface(mesh.points, triangles).part(slice(None))
+
+
+def wall(mesh, sharp=40):
+    """The wall of a vessel: its outside without the flat ends.
+
+    The outside is divided along edges that turn by more than `sharp` degrees; flat parts are ends. Where
+    all parts are flat, as in a box, all of them are wall.
+    """
+    surface = outside(mesh)
+    normal = surface.area_vectors()
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True) + 1e-300
+    sides = np.sort(surface.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    order = np.lexsort(sides.T)
+    same = (sides[order[1:]] == sides[order[:-1]]).all(axis=1)
+    pairs = np.stack([order[:-1][same] // 3, order[1:][same] // 3], axis=1)
+    turn = np.einsum("ij,ij->i", *normal[pairs.T])
+    part = components(len(normal), pairs[turn > np.cos(np.radians(sharp))])
+    total = np.stack([np.bincount(part, normal[:, i]) for i in range(3)], axis=1)
+    mean = np.linalg.norm(total, axis=1) / np.maximum(np.bincount(part), 1)
+    curved = mean[part] < 0.9999
+    if not curved.any():
+        return surface
+    # The parts do not share points, so that light breaks at the edge between them.
+    return surface.part(curved)
+
+
+def components(count, pairs):
+    """A number for each of `count` things, the same for those that pairs join."""
+    label = np.arange(count)
+    while len(pairs):
+        least = np.minimum(label[pairs[:, 0]], label[pairs[:, 1]])
+        if (label[pairs] == least[:, None]).all():
+            break
+        for side in (0, 1):
+            np.minimum.at(label, label[pairs[:, side]], least)
+            np.minimum.at(label, pairs[:, side], least)
+        label = label[label]
+    return label
