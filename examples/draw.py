@@ -52,8 +52,8 @@ def print_numbers(run):
     if summary:
         print(f"  {summary['status']} at t = {summary['t']:.6g}: {summary['cells']} cells, "
               f"{summary['ranks']} ranks, {summary['steps']} steps, {summary['wall_seconds']:.4g} s")
-    for name, data in run.tables.items():
-        if name == "solid" and "solid" not in os.listdir(run.folder) and len(run.tables) > 3:
+    for name, data in plots.with_drift(run).items():
+        if not os.path.exists(os.path.join(run.folder, name + ".csv")):
             continue
         ends = [f"{c} {data[c][-1]:.5g}" for c in
                 ("x", "y", "z", "angle", "taylor", "pressure_gradient", "flow_rate", "kinetic_energy",
@@ -61,9 +61,9 @@ def print_numbers(run):
         if ends:
             print(f"  {name}.csv ends with " + ", ".join(ends))
         if "min_eig_B" in data:
-            print(f"  {name}: det B {data['det_B_min'].min():.6g} to {data['det_B_max'].max():.6g}, smallest "
-                  f"eigenvalue of B {data['min_eig_B'].min():.4g}, volume drift "
-                  f"{abs(plots.with_drift(run)[name].get('drift', [0])).max():.1e}")
+            print(f"  {name}.csv holds det B from {data['det_B_min'].min():.6g} to {data['det_B_max'].max():.6g}, "
+                  f"eigenvalues of B down to {data['min_eig_B'].min():.4g}, a change of volume of "
+                  f"{abs(data['drift']).max():.1e}")
 
 
 def pictures(run, wish):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-from . import sections, style, views
+from . import scene, sections, style, surfaces, views
 
 
 def film(run, folder, look=None, scale=1, rate=8):
@@ -38,19 +38,16 @@ def film(run, folder, look=None, scale=1, rate=8):
 
 def ranges(run, look):
     """The smallest and largest value of what is coloured, over all times, by field."""
-    found = dict(look.ranges)
+    found = {}
     for snapshot in run.snapshots():
-        for name in ("speed", look.colour):
-            if name not in snapshot or name in look.ranges:
-                continue
-            values = snapshot[name]
-            if name != "speed":
-                values = values[snapshot["alpha"] > 0.5]
-            if len(values):
-                low, high = found.get(name, (np.inf, -np.inf))
-                found[name] = min(low, float(values.min())), max(high, float(values.max()))
-    found.setdefault("speed", (0.0, 1.0))
-    return found
+        values = {"speed": snapshot["speed"]}
+        if snapshot.dim == 3 and look.colour != "none" and snapshot.has_solid():
+            values.update(surfaces.solid_surface(snapshot, (look.colour,)).values)
+        for name, here in values.items():
+            low, high = found.get(name, (np.inf, -np.inf))
+            least, most = scene.span(here)
+            found[name] = min(low, least), max(high, most)
+    return {**found, **look.ranges}
 
 
 def _joined(paths, stem, rate):

@@ -88,12 +88,12 @@ def lines_of(panel, table, asked=False):
 
 
 def with_drift(run):
-    """The tables of a run, with the column drift in that of the solid."""
+    """The tables of a run, with the column drift in that of each solid."""
     tables = {name: dict(table) for name, table in run.tables.items()}
-    volume = tables["solid"].get("volume")
-    if volume is not None and volume[0] != 0:
-        left = tables["solid"].get("volume_out", 0)
-        tables["solid"].setdefault("drift", (volume + left) / volume[0] - 1)
+    for table in tables.values():
+        volume = table.get("volume")
+        if volume is not None and volume[0] != 0:
+            table.setdefault("drift", (volume + table.get("volume_out", 0)) / volume[0] - 1)
     return tables
 
 

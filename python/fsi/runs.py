@@ -87,14 +87,27 @@ class Mesh:
         for numbers, corners, kind in self.groups():
             places = self.points[corners] - self.points[corners[:, :1]]
             for face in cells.FACES[kind]:
-                ends = places[:, face]
-                if self.dim == 2:
-                    found[numbers] += 0.5 * np.cross(ends[:, 0], ends[:, 1])[:, 2]
-                    continue
-                middle = ends.mean(axis=1)
-                around = np.cross(ends - middle[:, None], np.roll(ends, -1, axis=1) - middle[:, None])
-                found[numbers] += np.einsum("ij,ij->i", middle, around.sum(axis=1)) / 6
+                found[numbers] += np.einsum("mi,mi->m", places[:, face].mean(axis=1),
+                                            self._outward(places[:, face])) / self.dim
         return abs(found)
+
+    def gradients(self, values):
+        """Of values at the points [n, c], in each cell [m, c, 3], by the means on its faces."""
+        found = np.zeros((len(self.types), values.shape[1], 3))
+        for numbers, corners, kind in self.groups():
+            places = self.points[corners] - self.points[corners[:, :1]]
+            for face in cells.FACES[kind]:
+                found[numbers] += np.einsum("mc,mi->mci", values[corners[:, face]].mean(axis=1),
+                                            self._outward(places[:, face]))
+        return found / self.volumes()[:, None, None]
+
+    def _outward(self, ends):
+        """Area times normal of faces with corners [m, k, 3]; of sides in two dimensions."""
+        if self.dim == 2:
+            along = ends[:, 1] - ends[:, 0]
+            return np.stack([along[:, 1], -along[:, 0], 0 * along[:, 0]], axis=1)
+        middle = ends.mean(axis=1, keepdims=True)
+        return 0.5 * np.cross(ends - middle, np.roll(ends, -1, axis=1) - middle).sum(axis=1)
 
     def at_points(self, values, weights=None):
         """Weighted mean over the cells around each point; NaN where all of their weights are 0."""
@@ -111,10 +124,14 @@ class Mesh:
 
 
 class Snapshot:
-    """The fields at one time: snapshot["u"] is a value of each cell, at_points("u") of each point."""
+    """The fields at one time: snapshot["u"] is a value of each cell, at_points("u") of each point.
 
-    def __init__(self, mesh, time, data):
+    Beside the fields of the file there are those of DERIVED; `viscosity` is that of the fluid.
+    """
+
+    def __init__(self, mesh, time, data, viscosity=0.0):
         self.mesh, self.time, self.data, self._at_points = mesh, time, dict(data), {}
+        self.viscosity = viscosity
         bodies = [name for name in self.data if name.startswith("alpha_")]
         if bodies and "alpha" not in self.data:  # several solids: all of them together
             self.data["alpha"] = np.sum([self.data[name] for name in bodies], axis=0)
@@ -127,13 +144,17 @@ class Snapshot:
 
     def __getitem__(self, name):
         if name not in self.data and name in self:
-            self.data[name] = DERIVED[name][1](self.data, self.mesh.dim)
+            self.data[name] = DERIVED[name][1](self)
         return self.data[name]
 
     def at_points(self, name):
-        """A field at the points. What belongs to the solid alone is NaN away from it."""
+        """A field at the points. What belongs to the solid or the fluid alone is NaN away from it."""
         if name not in self._at_points:
-            weights = self["alpha"] * (self["alpha"] > 0.01) if name in OF_SOLID else None
+            weights = None
+            if name in OF_SOLID:
+                weights = self["alpha"] * (self["alpha"] > 0.01)
+            if name in OF_FLUID and "alpha" in self:
+                weights = (1 - self["alpha"]) * (self["alpha"] < 0.5)
             self._at_points[name] = self.mesh.at_points(self[name], weights)
         return self._at_points[name]
 
@@ -146,22 +167,34 @@ class Snapshot:
             return None
         return np.average(self.mesh.centres(), axis=0, weights=self["alpha"] * self.mesh.volumes())
 
-    def volume_of_solid(self):
-        return float(self["alpha"] @ self.mesh.volumes())
+    def volume_of_solid(self, name="alpha"):
+        return float(self[name] @ self.mesh.volumes())
+
+    def bodies(self):
+        """The names of the fields that tell where a solid is, one for each solid."""
+        several = sorted(name for name in self.data if name.startswith("alpha_"))
+        return several or [name for name in ("alpha",) if name in self.data]
 
 
-def _stretch(data, dim):
-    xx, yy, zz, xy, yz, xz = data["B"].T
-    rows = [[xx, xy], [xy, yy]] if dim == 2 else [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+def _stretch(snapshot):
+    xx, yy, zz, xy, yz, xz = snapshot["B"].T
+    rows = [[xx, xy], [xy, yy]] if snapshot.dim == 2 else [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
     largest = np.linalg.eigvalsh(np.moveaxis(np.array(rows), -1, 0))[:, -1]
     return np.sqrt(np.maximum(largest, 0))
 
 
-DERIVED = {  # name: (what it is made of, how)
-    "speed": (("u",), lambda data, dim: np.linalg.norm(data["u"], axis=1)),
-    "stretch": (("B", "alpha"), _stretch),
+def _stress(snapshot):
+    slope = snapshot.mesh.gradients(snapshot.at_points("u"))
+    viscous = snapshot.viscosity * (slope + np.swapaxes(slope, 1, 2))
+    return viscous - snapshot["p"][:, None, None] * np.eye(3)
+
+
+DERIVED = {  # name: (the fields that it is made of, how)
+    "speed": (("u",), lambda snapshot: np.linalg.norm(snapshot["u"], axis=1)),
+    "stretch": (("B", "alpha"), _stretch),  # the largest one
+    "stress": (("u", "p"), _stress),  # of the fluid [m, 3, 3]
 }
-OF_SOLID = ("B", "stretch")
+OF_SOLID, OF_FLUID = ("B", "stretch"), ("stress",)
 
 
 class Run:
@@ -187,7 +220,8 @@ class Run:
         pairs = [p for p in self.options.get("mesh_periodic", "").split(",") if p]
         with h5py.File(path, "r") as file:
             data = {name: np.asarray(field) for name, field in file["VTKHDF/CellData"].items()}
-        return Snapshot(read_mesh(path, tuple(pairs)), time, data)
+        viscosity = float(self.options.get("fluid_viscosity", 0))
+        return Snapshot(read_mesh(path, tuple(pairs)), time, data, viscosity)
 
     def snapshots(self, numbers=None):
         for number in range(len(self.items)) if numbers is None else numbers:

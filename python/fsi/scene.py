@@ -49,10 +49,22 @@ class Colours:
     low: float
     high: float
     label: str
+    extend: str = "neither"  # where values lie beyond the range, as matplotlib calls it
 
     def __call__(self, values):
         span = max(self.high - self.low, 1e-300)
         return matplotlib.colormaps[self.name](np.clip((values - self.low) / span, 0, 1))
+
+
+def span(values):
+    """The range of values: the whole of it, unless a hundredth of them makes more than half of it."""
+    low, least, most, high = np.percentile(values, (0, 1, 99, 100))
+    return (low, high) if high - low < 2 * (most - least) else (least, most)
+
+
+def beyond(values, low, high):
+    under, over = np.min(values) < low - 1e-12, np.max(values) > high + 1e-12
+    return "both" if under and over else "min" if under else "max" if over else "neither"
 
 
 def painted(surface, colours, lit=True):

@@ -56,28 +56,52 @@ def isosurface(snapshot, name="alpha", level=0.5, carry=()):
 
     The fields named in `carry` come along as values at the points.
     """
+    return _level_of(snapshot, snapshot.at_points(name) - level, carry)
+
+
+def _level_of(snapshot, value, carry):
+    """The surface on which values at the points pass zero."""
     mesh = snapshot.mesh
-    value = snapshot.at_points(name) - level
     least, most = mesh.extent(value)
     parts = cells.Simplices(mesh, np.flatnonzero((least <= 0) & (most >= 0)))
     value, places = parts.extend(value), parts.extend(mesh.points)
     ends, part, triangles = cells.crossing(parts.corners, value)
     surface = Surface(cells.between(places, ends, part), triangles)
-    for other in carry:
-        surface.values[other] = cells.between(parts.extend(snapshot.at_points(other)), ends, part)
     # Each end is on one side of the level: from the higher to the lower one is outward.
-    outward = (places[ends[:, 1]] - places[ends[:, 0]]) * np.sign(value[ends[:, 0]])[:, None]
+    outward = (places[ends[:, 1]] - places[ends[:, 0]]) * np.where(value[ends[:, :1]] < 0, -1, 1)
     wrong = np.einsum("ij,ij->i", surface.area_vectors(), outward[triangles].sum(axis=1)) < 0
     surface.triangles[wrong] = surface.triangles[wrong][:, ::-1]
+    part = np.clip(part, 0.03, 0.97)  # a triangle of no size has no normal
+    surface.points = cells.between(places, ends, part)
+    for other in carry:
+        surface.values[other] = cells.between(parts.extend(snapshot.at_points(other)), ends, part)
     return surface
 
 
 def solid_surface(snapshot, carry=(), about=None, rounds=100):
     """The surface alpha = 0.5, smooth and in one piece across the seams of a period.
 
-    A closed surface encloses the volume of the solid. It lies where its middle is nearest to the place `about` (default: within the mesh).
+    A closed surface encloses the volume of the solid. `carry` names fields that come along as values; one
+    of them may be traction, the size of the fluid's stress on the surface beyond its mean pressure. The
+    middle lies as near as can be to the place `about` (default: the middle of the mesh).
     """
-    surface = isosurface(snapshot, "alpha", 0.5, [name for name in carry if name in snapshot])
+    fields = ["stress" if name == "traction" else name for name in carry]
+    fields = [name for name in fields if name in snapshot]
+    bodies = [_body(snapshot, name, fields, about, rounds) for name in snapshot.bodies()]
+    return united([body for body in bodies if len(body.triangles)] or bodies[:1])
+
+
+def united(parts):
+    """Several surfaces as one."""
+    offsets = np.cumsum([0] + [len(part.points) for part in parts])
+    return Surface(np.concatenate([part.points for part in parts]),
+                   np.concatenate([part.triangles + o for part, o in zip(parts, offsets)]),
+                   {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values})
+
+
+def _body(snapshot, name, fields, about, rounds):
+    """The surface of one solid, of which `name` is the part of the cells."""
+    surface = isosurface(snapshot, name, 0.5, fields)
     if len(surface.triangles) == 0:
         return surface
     surface = in_one_piece(surface, snapshot.mesh, about)
@@ -85,9 +109,20 @@ def solid_surface(snapshot, carry=(), about=None, rounds=100):
     if (surface.edges()[1] == 2).all():
         # Means over cells round off what is curved: give the volume back along the normals.
         for _ in range(3):
-            lost = (snapshot.volume_of_solid() - surface.volume()) / surface.area()
+            lost = (snapshot.volume_of_solid(name) - surface.volume()) / surface.area()
             surface = surface.moved(lost * surface.normals())
+    if "stress" in surface.values:
+        surface.values["traction"] = traction(surface)
     return surface
+
+
+def traction(surface):
+    """The size of stress times normal at the points, the mean pressure on the surface left out."""
+    stress, normals = surface.values["stress"], surface.normals()
+    pressure = -np.trace(stress, axis1=1, axis2=2) / 3
+    area = np.linalg.norm(surface.area_vectors(), axis=1)
+    mean = np.average(pressure[surface.triangles].mean(axis=1), weights=area)
+    return np.linalg.norm(np.einsum("nij,nj->ni", stress, normals) + mean * normals, axis=1)
 
 
 def section(surface, normal, level):
@@ -101,29 +136,31 @@ def solid_outline(snapshot, rounds=30):
 
     A closed line encloses the area of the solid.
     """
+    return np.concatenate([_outline(snapshot, name, rounds) for name in snapshot.bodies()])
+
+
+def _outline(snapshot, name, rounds):
     parts = cells.Simplices(snapshot.mesh)
-    value, places = (parts.extend(v) for v in (snapshot.at_points("alpha") - 0.5, snapshot.mesh.points))
+    value, places = (parts.extend(v) for v in (snapshot.at_points(name) - 0.5, snapshot.mesh.points))
     ends, part, edges = cells.crossing(parts.corners, value)
     if len(edges) == 0:
         return np.zeros((0, 2, 3))
-    higher = places[ends[:, 0]] * (value[ends[:, 0]] > 0)[:, None] + \
-        places[ends[:, 1]] * (value[ends[:, 1]] > 0)[:, None]
     points = cells.between(places, ends, part)
+    higher = places[np.where(value[ends[:, 0]] > 0, ends[:, 0], ends[:, 1])]
+    outward = (points - higher)[edges].sum(axis=1)
     count = np.bincount(edges.ravel(), minlength=len(points))
-    outward = points - higher
     points = relaxed(points, edges, rounds, np.flatnonzero(count == 1))
     along = points[edges[:, 1]] - points[edges[:, 0]]
-    normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    turned = np.einsum("ij,ij->i", normal, outward[edges].sum(axis=1)[:, :2]) < 0
-    edges[turned] = edges[turned][:, ::-1]
+    normal = np.stack([along[:, 1], -along[:, 0], 0 * along[:, 0]], axis=1)
+    inward = np.einsum("ij,ij->i", normal, outward) < 0
+    edges[inward] = edges[inward][:, ::-1]  # the solid stands to the left of each segment
+    normal[inward] *= -1
     if (count == 2).all():
-        a, b = points[edges[:, 0]], points[edges[:, 1]]
-        area = 0.5 * np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-        normal[turned] *= -1
-        lost = (snapshot.volume_of_solid() - area) / np.linalg.norm(along, axis=1).sum()
-        at = np.stack([np.bincount(edges.ravel(), np.repeat(normal[:, i], 2), minlength=len(points))
-                       for i in (0, 1)], axis=1)
-        points[:, :2] += lost * at / (np.linalg.norm(at, axis=1, keepdims=True) + 1e-300)
+        area = 0.5 * np.einsum("ij,ij->", points[edges].mean(axis=1) - points.mean(axis=0), normal)
+        lost = (snapshot.volume_of_solid(name) - area) / np.linalg.norm(along, axis=1).sum()
+        at = np.stack([np.bincount(edges.ravel(), np.repeat(column, 2), minlength=len(points))
+                       for column in normal.T], axis=1)
+        points += lost * at / (np.linalg.norm(at, axis=1, keepdims=True) + 1e-300)
     return points[edges]
 
 
@@ -159,26 +196,30 @@ def smooth(surface, rounds):
     """Takes out steps of the size of a cell and keeps volume and shape; an open edge stays."""
     edges, count = surface.edges()
     points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel())
-    values = {}
+    values, number = {}, len(surface.points)
     for name, value in surface.values.items():
-        values[name] = relaxed(value[:, None], edges, 6)[:, 0] if value.ndim == 1 else value
+        values[name] = relaxed(value.reshape(number, -1), edges, 6).reshape(value.shape)
     return Surface(points, surface.triangles, values)
 
 
 def relaxed(places, edges, rounds, fixed=()):
     """Each round moves what stands at the ends of edges towards the mean of its neighbours and back
     [Taubin95]."""
-    number = len(places)
-    degree = np.maximum(np.bincount(edges.ravel(), minlength=number), 1)[:, None]
-    free = np.ones((number, 1))
+    free = np.ones((len(places), 1))
     free[np.asarray(fixed, int)] = 0
     for _ in range(rounds):
         for share in (0.5, -0.53):
-            mean = np.stack([np.bincount(edges[:, 0], column[edges[:, 1]], minlength=number) +
-                             np.bincount(edges[:, 1], column[edges[:, 0]], minlength=number)
-                             for column in places.T], axis=1) / degree
-            places = places + share * free * (mean - places)
+            places = places + share * free * (neighbours(places, edges) - places)
     return places
+
+
+def neighbours(values, edges):
+    """The mean of the values [n, c] at the other ends of the edges."""
+    number = len(values)
+    degree = np.maximum(np.bincount(edges.ravel(), minlength=number), 1)[:, None]
+    return np.stack([np.bincount(edges[:, 0], column[edges[:, 1]], minlength=number) +
+                     np.bincount(edges[:, 1], column[edges[:, 0]], minlength=number)
+                     for column in values.T], axis=1) / degree
 
 
 def subdivide(surface):

@@ -8,7 +8,7 @@ import numpy as np
 from . import cuts, labels, render, scene, sections, style, surfaces
 
 PARTS = ("wall", "slice", "streamlines", "body")
-COLOURS = ("stretch", "p", "speed", "none")
+COLOURS = ("stretch", "traction", "p", "speed", "none")
 BODY, FLOW = "YlOrRd", "Blues"
 
 
@@ -65,22 +65,16 @@ def within(surface, box, mesh):
             found.append(part)
     if not found:
         return surface.part(np.zeros(0, int))
-    return joined(found)
-
-
-def joined(parts):
-    """Several surfaces as one."""
-    offsets = np.cumsum([0] + [len(part.points) for part in parts])
-    return surfaces.Surface(np.concatenate([part.points for part in parts]),
-                            np.concatenate([part.triangles + o for part, o in zip(parts, offsets)]),
-                            {name: np.concatenate([part.values[name] for part in parts])
-                             for name in parts[0].values})
+    return surfaces.united(found)
 
 
 def colours_of(name, values, cmap, look):
-    """The colours of a field: the range that is given, else that of the values."""
-    low, high = look.ranges.get(name, (float(np.nanmin(values)), float(np.nanmax(values))))
-    return scene.Colours(cmap, low, high, look.units.field(name))
+    """The colours of a field: the range that is given, else that of the values.
+
+    A few values far away from the others do not set the range; the colour bar has an arrow there.
+    """
+    low, high = look.ranges.get(name) or scene.span(values)
+    return scene.Colours(cmap, low, high, look.units.field(name), scene.beyond(values, low, high))
 
 
 def build(run, snapshot, look):
@@ -108,7 +102,7 @@ def build(run, snapshot, look):
         layers.append(_streamlines(snapshot, look, about, box, camera, speed))
     if body is not None and "body" in look.parts:
         colours = (*matplotlib.colors.to_rgb(style.ORANGE), 1)
-        if body.values:
+        if look.colour in body.values:
             bars.insert(0, colours_of(look.colour, body.values[look.colour], BODY, look))
             colours = bars[0](body.values[look.colour])
         layers.append(scene.painted(body, colours))
@@ -224,7 +218,7 @@ def colour_bars(figure, bars, below):
         share = 1 / len(bars)
         ax = figure.add_axes((share * (i + 0.5) - 0.36 * share, 0.72 * below, 0.72 * share, 0.14 * below))
         mapped = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(bar.low, bar.high), bar.name)
-        figure.colorbar(mapped, cax=ax, orientation="horizontal", label=bar.label)
+        figure.colorbar(mapped, cax=ax, orientation="horizontal", label=bar.label, extend=bar.extend)
         ax.tick_params(labelsize=8)
 
 
@@ -239,7 +233,7 @@ def over_time(run, look=None, scale=1, most=6):
     snapshots = list(run.snapshots(shown))
     bodies = [surfaces.solid_surface(snapshot, carried) for snapshot in snapshots]
     bars = []
-    if carried and all(body.values for body in bodies):
+    if carried and all(look.colour in body.values for body in bodies):
         bars = [colours_of(look.colour, np.concatenate([b.values[look.colour] for b in bodies]), BODY, look)]
     cameras = [scene.fitted([body.points], *look.eye(), margin=1.1) for body in bodies]
     for camera in cameras:

@@ -37,7 +37,23 @@ def check_sphere():
         check(abs(wrong).max() < 1e-9, f"{kind}: a linear field is met on the surface")
         check(np.allclose(fine.values["stretch"], 1), f"{kind}: the strain of fluid has no part in it")
         away = np.linalg.norm(fine.points - (0.5, 0.48, 0.51), axis=1)
+        slant = np.einsum("ij,ij->i", fine.normals(), fine.points - (0.5, 0.48, 0.51)) / away
+        check(slant.min() > 0.9, f"{kind}: no folds: cosine of normal to radius {slant.min():.3f}")
         check(np.ptp(away) < 0.3 / n, f"{kind}: no facets: radius from {away.min():.4f} to {away.max():.4f}")
+
+
+def check_traction():
+    """In a shear flow u = (y, 0, 0) at viscosity 2, whatever the pressure level."""
+    for kind, n in (("hex", 16), ("tet", 14)):
+        mesh = runs.Mesh(*box((1, 1, 1), (n, n, n), kind))
+        one = snapshot(mesh, (0.5, 0.5, 0.5), 0.25)
+        one.viscosity, one.data["p"] = 2.0, np.full(len(mesh.types), 7.0)
+        slope = mesh.gradients(mesh.points * (0, 3, 0))
+        check(np.allclose(slope, np.diag((0, 3, 0))), f"{kind}: the gradient of a linear field")
+        surface = surfaces.solid_surface(one, ("traction",))
+        normals = surface.normals()
+        exact = 2 * np.linalg.norm(normals[:, :2], axis=1)
+        check(abs(surface.values["traction"] - exact).max() < 0.02, f"{kind}: traction of a shear flow")
 
 
 def check_seam():
@@ -108,6 +124,7 @@ def check_resample():
 
 
 check_sphere()
+check_traction()
 check_seam()
 check_cuts()
 check_wall()
