@@ -1,9 +1,13 @@
 """Surfaces as triangles: the solid's, the wall of the vessel, where a field has a value."""
+import functools
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from . import cells
+
+
+ENDS = 0.03, 0.97  # a surface keeps so far from the ends of an edge: a triangle of no size has no normal
 
 
 @dataclass
@@ -56,12 +60,7 @@ def isosurface(snapshot, name="alpha", level=0.5, carry=()):
 
     The fields named in `carry` come along as values at the points.
     """
-    return _level_of(snapshot, snapshot.at_points(name) - level, carry)
-
-
-def _level_of(snapshot, value, carry):
-    """The surface on which values at the points pass zero."""
-    mesh = snapshot.mesh
+    mesh, value = snapshot.mesh, snapshot.at_points(name) - level
     least, most = mesh.extent(value)
     parts = cells.Simplices(mesh, np.flatnonzero((least <= 0) & (most >= 0)))
     value, places = parts.extend(value), parts.extend(mesh.points)
@@ -71,7 +70,7 @@ def _level_of(snapshot, value, carry):
     outward = (places[ends[:, 1]] - places[ends[:, 0]]) * np.where(value[ends[:, :1]] < 0, -1, 1)
     wrong = np.einsum("ij,ij->i", surface.area_vectors(), outward[triangles].sum(axis=1)) < 0
     surface.triangles[wrong] = surface.triangles[wrong][:, ::-1]
-    part = np.clip(part, 0.03, 0.97)  # a triangle of no size has no normal
+    part = np.clip(part, *ENDS)
     surface.points = cells.between(places, ends, part)
     for other in carry:
         surface.values[other] = cells.between(parts.extend(snapshot.at_points(other)), ends, part)
@@ -104,7 +103,9 @@ def _body(snapshot, name, fields, about, rounds):
     surface = isosurface(snapshot, name, 0.5, fields)
     if len(surface.triangles) == 0:
         return surface
-    surface = in_one_piece(surface, snapshot.mesh, about)
+    mesh = snapshot.mesh
+    surface = in_one_piece(united([surface, cap(snapshot, name, 0.5, fields)]), mesh, about)
+    surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
     surface = smooth(subdivide(smooth(surface, rounds)), 10)
     if (surface.edges()[1] == 2).all():
         # Means over cells round off what is curved: give the volume back along the normals.
@@ -165,7 +166,7 @@ def _outline(snapshot, name, rounds):
 
 
 def in_one_piece(surface, mesh, about=None):
-    """Moves by a period what lies beyond the widest gap, and joins the points at the seam."""
+    """Moves by a period what lies beyond the widest gap."""
     points = surface.points.copy()
     for axis in np.flatnonzero(mesh.period):
         length = mesh.period[axis]
@@ -177,8 +178,7 @@ def in_one_piece(surface, mesh, about=None):
         middle = 0.5 * (points[:, axis].min() + points[:, axis].max())
         target = about[axis] if about is not None else 0.5 * (mesh.low[axis] + mesh.high[axis])
         points[:, axis] += length * np.round((target - middle) / length)
-    moved = Surface(points, surface.triangles, surface.values)
-    return joined(moved, 1e-6 * np.ptp(mesh.points, axis=0).max()) if mesh.period.any() else moved
+    return Surface(points, surface.triangles, surface.values)
 
 
 def joined(surface, size):
@@ -240,23 +240,66 @@ def subdivide(surface):
                    {name: halves(value) for name, value in surface.values.items()})
 
 
-def outside(mesh):
-    """The outer faces of a mesh in three dimensions, normals outward."""
+def cap(snapshot, name, level, carry=()):
+    """The part of the mesh's outside on which a field is above a level; it closes the isosurface."""
+    mesh = snapshot.mesh
+    triples, quads = outer_faces(mesh)
+    middle = len(mesh.points) + np.arange(len(quads))
+    triangles = np.concatenate([triples] + [
+        np.column_stack([quads[:, i], quads[:, (i + 1) % 4], middle]) for i in range(4)])
+
+    def extended(values):
+        return np.concatenate([values, values[quads].mean(axis=1)])
+    places, value = extended(mesh.points), extended(snapshot.at_points(name) - level)
+    for axis in np.flatnonzero(mesh.period):  # a seam is no outside
+        at = places[triangles, axis]
+        room = 1e-6 * mesh.period[axis]
+        ends = (at < mesh.low[axis] + room).all(axis=1) | (at > mesh.high[axis] - room).all(axis=1)
+        triangles = triangles[~ends]
+    above = value[triangles] >= 0
+    count = above.sum(axis=1)
+    # A triangle with one corner above or below is turned until that corner is its first one.
+    turns = (np.where(count == 1, above.argmax(axis=1), (~above).argmax(axis=1))[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(triangles, turns, axis=1).T
+    one, two, all_of = (np.flatnonzero(count == k) for k in (1, 2, 3))
+    keep = np.stack([triangles[all_of]] * 2, axis=2)  # each point between two, here one and the same
+    ab, ac = np.stack([a, b], axis=1), np.stack([a, c], axis=1)
+    bb, cc = np.stack([b, b], axis=1), np.stack([c, c], axis=1)
+    aa = np.stack([a, a], axis=1)
+    pairs = np.concatenate([keep] + [np.stack([part[some] for part in parts], axis=1) for some, parts in
+                                     ((one, (aa, ab, ac)), (two, (ab, bb, cc)), (two, (ab, cc, ac)))])
+    ends = pairs.reshape(-1, 2)
+    apart = value[ends[:, 0]] - value[ends[:, 1]]
+    part = np.clip(value[ends[:, 0]] / np.where(apart == 0, 1, apart), *ENDS)
+    found = Surface(cells.between(places, ends, part), np.arange(len(ends)).reshape(-1, 3))
+    for other in carry:
+        found.values[other] = cells.between(extended(snapshot.at_points(other)), ends, part)
+    return found
+
+
+@functools.lru_cache(maxsize=4)
+def outer_faces(mesh):
+    """The faces of one cell alone, by corner: those of three [n, 3] and those of four [m, 4]."""
     faces = {3: [np.zeros((0, 3), int)], 4: [np.zeros((0, 4), int)]}
     for _, corners, kind in mesh.groups():
         for face in cells.FACES[kind]:
             faces[len(face)].append(corners[:, face])
-    outer = {}
-    for size, found in faces.items():
-        found = np.concatenate(found)
+    outer = []
+    for found in (np.concatenate(faces[size]) for size in (3, 4)):
         _, first, count = np.unique(np.sort(found, axis=1), axis=0, return_index=True,
                                     return_counts=True)
-        outer[size] = found[first[count == 1]]
-    quads = outer[4]
-    triangles = np.concatenate([outer[3], quads[:, :3], quads[:, [0, 2, 3]]])
+        outer.append(found[first[count == 1]])
+    return outer
+
+
+def outside(mesh):
+    """The outer faces of a mesh in three dimensions as a surface, normals outward."""
+    triples, quads = outer_faces(mesh)
+    triangles = np.concatenate([triples, quads[:, :3], quads[:, [0, 2, 3]]])
     return Surface(mesh.points, triangles).part(slice(None))
 
 
+@functools.lru_cache(maxsize=4)
 def wall(mesh, sharp=40):
     """The wall of a vessel: its outside without the flat ends.
 

@@ -43,8 +43,8 @@ def box(sides, counts, kind="hex"):
         "hex": ([range(8)], 12), "quad": ([range(4)], 9), "triangle": ([(0, 1, 2), (0, 2, 3)], 5),
         "prism": ([(0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7)], 13),
         "tet": ([(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)], 10),
-        "pyramid": ([(0, 3, 2, 1, 8), (4, 5, 6, 7, 8), (0, 1, 5, 4, 8), (1, 2, 6, 5, 8), (2, 3, 7, 6, 8),
-                     (3, 0, 4, 7, 8)], 14),
+        "pyramid": ([(0, 1, 2, 3, 8), (7, 6, 5, 4, 8), (4, 5, 1, 0, 8), (5, 6, 2, 1, 8), (6, 7, 3, 2, 8),
+                     (7, 4, 0, 3, 8)], 14),
     }[kind]
     corners = np.concatenate([cells[:, list(part)] for part in parts])
     return points, corners.ravel(), np.arange(len(corners)) * corners.shape[1], \

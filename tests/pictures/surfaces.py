@@ -56,6 +56,19 @@ def check_traction():
         check(abs(surface.values["traction"] - exact).max() < 0.02, f"{kind}: traction of a shear flow")
 
 
+def check_at_a_wall():
+    """A ball of which a part has left through the side y = 0: closed by a disc there."""
+    for kind, n in (("hex", 20), ("tet", 16), ("prism", 16), ("pyramid", 12)):
+        mesh = runs.Mesh(*box((1, 1, 1), (n, n, n), kind))
+        one = snapshot(mesh, (0.5, 0.1, 0.5), 0.3)
+        surface = surfaces.solid_surface(one, ("stretch",))
+        exact = 2 * np.pi * 0.3 * 0.4 + np.pi * (0.3**2 - 0.1**2)
+        check((surface.edges()[1] == 2).all() and surface.values["stretch"].shape == surface.points[:, 0].shape,
+              f"{kind}: closed at the wall")
+        check(abs(surface.area() / exact - 1) < 0.03, f"{kind}: area with the disc {surface.area() / exact:.4f}")
+        check(abs(surface.volume() / one.volume_of_solid() - 1) < 1e-3, f"{kind}: volume at the wall")
+
+
 def check_seam():
     period = (1, 0, 0)
     mesh = runs.Mesh(*box((1, 1, 1), (16, 16, 16)), period)
@@ -125,6 +138,7 @@ def check_resample():
 
 check_sphere()
 check_traction()
+check_at_a_wall()
 check_seam()
 check_cuts()
 check_wall()
