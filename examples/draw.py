@@ -13,6 +13,23 @@ import fsi  # noqa: E402
 from fsi import film, labels, plots, sections, style, views  # noqa: E402
 
 
+def words(known):
+    """What takes words with commas between them, all of them known."""
+    def split(text):
+        unknown = [word for word in text.split(",") if word not in known]
+        if unknown:
+            raise argparse.ArgumentTypeError(f'"{unknown[0]}" is none of {", ".join(known)}')
+        return tuple(text.split(","))
+    return split
+
+
+def units(text):
+    names = text.split(",")
+    if len(names) != 3:
+        raise argparse.ArgumentTypeError("three units are expected: of length, time and mass")
+    return labels.Units(*names)
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -26,7 +43,7 @@ def arguments():
                         "through the solid's centre; not given: z, or where the solid travels along "
                         "z the axis that it travels along least")
     parser.add_argument("--colour", choices=views.COLOURS, default="stretch", help="of the body in 3-D")
-    parser.add_argument("--parts", type=lambda text: tuple(text.split(",")), default=views.PARTS,
+    parser.add_argument("--parts", type=words(views.PARTS), default=views.PARTS,
                         metavar="WORDS", help="what view.png shows: " + ",".join(views.PARTS))
     parser.add_argument("--q", type=float, nargs="?", const=0.0, metavar="VALUE", help="view.png with the "
                         "surface on which Q has this value; without a value: the strongest vortices")
@@ -39,7 +56,7 @@ def arguments():
     parser.add_argument("--film", action="store_true", help="film/frame_NNNN.png too, and film.mp4 where "
                         "ffmpeg is installed, else film.gif")
     parser.add_argument("--scale", type=int, default=1, help="2 doubles the resolution")
-    parser.add_argument("--units", type=lambda text: labels.Units(*text.split(",")), default=labels.Units(),
+    parser.add_argument("--units", type=units, default=labels.Units(),
                         metavar="LENGTH,TIME,MASS", help="units of the case for the labels: m,s,kg")
     parser.add_argument("--renderer", choices=("auto", "vtk", "plain"), default="auto", help="what draws in "
                         "3-D: VTK, or numpy alone; not given: VTK where python3-vtk9 and xvfb are installed")
@@ -94,6 +111,9 @@ def main():
     wish = arguments()
     style.apply()
     runs = [fsi.Run(folder) for folder in wish.folder]
+    for run in runs:
+        if not run.items and not any(run.tables.values()):
+            raise ValueError(f"{run.folder} holds neither tables nor fields of a run")
     above = os.path.dirname(os.path.abspath(runs[0].folder))
     output = wish.output or (runs[0].folder if len(runs) == 1 else above)
     os.makedirs(output, exist_ok=True)

@@ -117,7 +117,7 @@ def empty_gradient(run):
     sides = (mesh.high - mesh.low)[1:]
     viscosity, velocity = (float(run.options.get(name, "nan")) for name in
                            ("fluid_viscosity", "flow_mean_velocity"))
-    section = mesh.volumes().sum() / (mesh.high - mesh.low)[0]
+    section = mesh.volumes.sum() / (mesh.high - mesh.low)[0]
     if abs(sides[0] - sides[1]) > 0.02 * sides[0] or abs(section / (np.pi / 4 * sides[0]**2) - 1) > 0.05:
         return None
     gradient = 32 * viscosity * velocity / sides[0]**2

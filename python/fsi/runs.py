@@ -81,6 +81,7 @@ class Mesh:
         return (np.minimum.reduceat(at_corners, self.starts),
                 np.maximum.reduceat(at_corners, self.starts))
 
+    @functools.cached_property
     def volumes(self):
         """Volume of each cell; its area in two dimensions."""
         found = np.zeros(len(self.types))
@@ -99,7 +100,7 @@ class Mesh:
             for face in cells.FACES[kind]:
                 found[numbers] += np.einsum("mc,mi->mci", values[corners[:, face]].mean(axis=1),
                                             self._outward(places[:, face]))
-        return found / self.volumes()[:, None, None]
+        return found / self.volumes[:, None, None]
 
     def _outward(self, ends):
         """Area times normal of faces with corners [m, k, 3]; of sides in two dimensions."""
@@ -165,10 +166,10 @@ class Snapshot:
         """Mean place of the solid [3], in the mesh as it is written; None without a solid."""
         if not self.has_solid():
             return None
-        return np.average(self.mesh.centres(), axis=0, weights=self["alpha"] * self.mesh.volumes())
+        return np.average(self.mesh.centres(), axis=0, weights=self["alpha"] * self.mesh.volumes)
 
     def volume_of_solid(self, name="alpha"):
-        return float(self[name] @ self.mesh.volumes())
+        return float(self[name] @ self.mesh.volumes)
 
     def bodies(self):
         """The names of the fields that tell where a solid is, one for each solid."""

@@ -106,12 +106,14 @@ def _body(snapshot, name, fields, about, rounds):
     mesh = snapshot.mesh
     surface = in_one_piece(united([surface, cap(snapshot, name, 0.5, fields)]), mesh, about)
     surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
+    for key, value in surface.values.items():
+        surface.values[key] = filled(value, surface.edges()[0])
     surface = smooth(subdivide(smooth(surface, rounds)), 10)
     if (surface.edges()[1] == 2).all():
         # Means over cells round off what is curved: give the volume back along the normals.
+        volume = snapshot.volume_of_solid(name)
         for _ in range(3):
-            lost = (snapshot.volume_of_solid(name) - surface.volume()) / surface.area()
-            surface = surface.moved(lost * surface.normals())
+            surface = surface.moved((volume - surface.volume()) / surface.area() * surface.normals())
     if "stress" in surface.values:
         surface.values["traction"] = traction(surface)
     return surface
@@ -220,6 +222,20 @@ def neighbours(values, edges):
     return np.stack([np.bincount(edges[:, 0], column[edges[:, 1]], minlength=number) +
                      np.bincount(edges[:, 1], column[edges[:, 0]], minlength=number)
                      for column in values.T], axis=1) / degree
+
+
+def filled(values, edges):
+    """NaN, as of the fluid's stress where a body touches a wall, replaced from the neighbours outwards."""
+    flat = values.reshape(len(values), -1).copy()
+    known = ~np.isnan(flat[:, 0])
+    while not known.all():
+        weight = neighbours(known[:, None].astype(float), edges)
+        found = neighbours(np.where(known[:, None], flat, 0), edges) / np.maximum(weight, 1e-300)
+        new = ~known & (weight[:, 0] > 0)
+        if not new.any():
+            break
+        flat[new], known[new] = found[new], True
+    return flat.reshape(values.shape)
 
 
 def subdivide(surface):

@@ -60,8 +60,7 @@ def within(surface, box, mesh):
         inside = ((corners.max(axis=1) > box[0] - 1e-9) & (corners.min(axis=1) < box[1] + 1e-9)).all(axis=1)
         if inside.any():
             part = copy.part(inside)
-            # What sticks out is drawn in to the edge of the box, along the axis of the period alone.
-            part.points = np.where(mesh.period > 0, np.clip(part.points, *box), part.points)
+            part.points = np.clip(part.points, *box)  # what sticks out by a part of a cell
             found.append(part)
     if not found:
         return surface.part(np.zeros(0, int))
@@ -136,7 +135,7 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
     places = shifted[inside]
     grid = scene.Grid(snapshot, "u")
     if look.relative and snapshot.has_solid():
-        weights = snapshot["alpha"] * mesh.volumes()
+        weights = snapshot["alpha"] * mesh.volumes
         grid.values = grid.values - np.average(snapshot["u"], axis=0, weights=weights)
     seeds = scene.apart(places, count)
     size = min(camera.width, camera.height)

@@ -56,7 +56,7 @@ def ball(mesh, centre, radius, period=(0, 0, 0)):
     away = mesh.centres() - centre
     period = np.asarray(period, float)
     away -= period * np.round(away / np.where(period > 0, period, 1))
-    size = mesh.volumes()**(1 / mesh.dim)
+    size = mesh.volumes**(1 / mesh.dim)
     distance = np.linalg.norm(away[:, :mesh.dim], axis=1)
     return np.clip(0.5 + (radius - distance) / size, 0, 1)
 

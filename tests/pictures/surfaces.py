@@ -24,7 +24,7 @@ def check_sphere():
     exact = 4 * np.pi * 0.3**2
     for kind, n in (("hex", 16), ("tet", 14), ("prism", 14), ("pyramid", 12)):
         mesh = runs.Mesh(*box((1, 1, 1), (n, n, n), kind))
-        check(abs(mesh.volumes().sum() - 1) < 1e-12, f"{kind}: the cells fill the box")
+        check(abs(mesh.volumes.sum() - 1) < 1e-12, f"{kind}: the cells fill the box")
         one = snapshot(mesh, (0.5, 0.48, 0.51), 0.3)
         raw, fine = surfaces.isosurface(one, carry=("p",)), surfaces.solid_surface(one, ("p", "stretch"))
         for name, surface in (("isosurface", raw), ("solid", fine)):
@@ -61,7 +61,8 @@ def check_at_a_wall():
     for kind, n in (("hex", 20), ("tet", 16), ("prism", 16), ("pyramid", 12)):
         mesh = runs.Mesh(*box((1, 1, 1), (n, n, n), kind))
         one = snapshot(mesh, (0.5, 0.1, 0.5), 0.3)
-        surface = surfaces.solid_surface(one, ("stretch",))
+        surface = surfaces.solid_surface(one, ("stretch", "traction"))
+        check(np.isfinite(surface.values["traction"]).all(), f"{kind}: traction where no fluid is beside it")
         exact = 2 * np.pi * 0.3 * 0.4 + np.pi * (0.3**2 - 0.1**2)
         check((surface.edges()[1] == 2).all() and surface.values["stretch"].shape == surface.points[:, 0].shape,
               f"{kind}: closed at the wall")
@@ -123,7 +124,7 @@ def check_wall():
     wall = surfaces.wall(mesh)
     check(abs(wall.area() / (6 * np.pi) - 1) < 0.01, f"wall of a pipe without its ends {wall.area():.4f}")
     outside = surfaces.outside(mesh)
-    check(abs(outside.volume() / mesh.volumes().sum() - 1) < 1e-2, "the outside encloses the cells")
+    check(abs(outside.volume() / mesh.volumes.sum() - 1) < 1e-2, "the outside encloses the cells")
     check(abs(surfaces.wall(runs.Mesh(*box((1, 1, 1), (3, 3, 3), "prism"))).area() - 6) < 1e-9,
           "of a box all is wall")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Pictures in three dimensions, by VTK where it is at hand and by numpy: views.py SOURCE FOLDER."""
 import os
+import re
 import subprocess
 import sys
 
@@ -33,8 +34,8 @@ def run_across_a_seam():
                 "alpha": ball(mesh, (0.1 + time, 0.5, 0.5), 0.25, (2, 0, 0))}
     arrays = (mesh.points, mesh.corners, mesh.starts, mesh.types)
     time = np.linspace(0, 1, 5)
-    write_run(place, arrays, [0.0, 1.0], fields, {"mesh_periodic": "inlet,outlet"},
-              {"solid": {"t": time, "x": 0.1 + time, "y": 0.5 + 0 * time, "z": 0.5 + 0 * time}})
+    write_run(place, arrays, [0.0, 1.0], fields, {"mesh_periodic": "inlet,outlet", "solid_shear_modulus": "10"},
+              {"solid": {"t": time, "x": 0.1 + time, "y": 0.5 + 0 * time, "z": 0.5 + 0 * time, "angle": 45 + time}})
     return fsi.Run(place)
 
 
@@ -91,6 +92,24 @@ def check_film(run):
           f"a film of equal frames: {frames}, {sizes}")
 
 
+def check_page(run):
+    """doc/howto/pictures.md: the Python of the page runs, and it names every option of the command."""
+    with open(os.path.join(source, "doc", "howto", "pictures.md"), encoding="utf-8") as file:
+        page = file.read()
+    code = re.search(r"```python\n(.*?)```", page, re.S).group(1).replace("out/torus", run.folder)
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=source)
+    check(said.returncode == 0 and said.stdout.count("\n") == 4 and said.stdout.startswith("10 46.0"),
+          f"the Python of the page runs: {said.stdout}{said.stderr}")
+    draw = [sys.executable, os.path.join(source, "examples", "draw.py")]
+    told = subprocess.run(draw + ["--help"], capture_output=True, text=True).stdout
+    options = set(re.findall(r"^  (--[a-z]+)", told, re.M))
+    named = set(re.findall(r"(--[a-z]+)(?![\w-])", page)) - {"--help"}
+    check(len(options) > 10 and options == named, f"the page names every option: {options ^ named}")
+    for wrong in (["--parts", "wal"], ["--units", "m,s"]):
+        said = subprocess.run(draw + [run.folder, *wrong], capture_output=True, text=True)
+        check(said.returncode == 2 and "error: argument" in said.stderr, f"refused: {wrong}")
+
+
 def check_without_display():
     """Without a server to draw on, VTK is left alone: it would end the program."""
     code = f"import sys; sys.path.insert(0, {os.path.join(source, 'python')!r}); from fsi import render; " \
@@ -104,5 +123,6 @@ check_image()
 seam = run_across_a_seam()
 check_views(seam)
 check_film(seam)
+check_page(seam)
 check_without_display()
 sys.exit(1 if made_up.failures else 0)
