@@ -45,8 +45,10 @@ def frame(ax, cut, units):
 
 def title(cut, units):
     """The time and the place of a section."""
-    where = "" if cut.snapshot.dim == 2 else \
-        f"   plane {AXES[cut.normal]} = {units.number(cut.level, 'length')}"
+    if cut.snapshot.dim == 2:
+        return f"t = {units.number(cut.snapshot.time, 'time')}"
+    digits = 3 - int(np.floor(np.log10((cut.high - cut.low).max())))
+    where = f"   plane {AXES[cut.normal]} = {units.number(round(cut.level, digits) + 0.0, 'length')}"
     return f"t = {units.number(cut.snapshot.time, 'time')}{where}"
 
 

@@ -90,6 +90,11 @@ def solid_surface(snapshot, carry=(), about=None, rounds=100):
     return united([body for body in bodies if len(body.triangles)] or bodies[:1])
 
 
+def _half(snapshot, name):
+    """The level at the surface of a solid: 0.5, or less where means over cells nowhere come near to 1."""
+    return 0.5 * max(min(1.0, float(snapshot.at_points(name).max())), 0.5)
+
+
 def united(parts):
     """Several surfaces as one."""
     offsets = np.cumsum([0] + [len(part.points) for part in parts])
@@ -100,11 +105,12 @@ def united(parts):
 
 def _body(snapshot, name, fields, about, rounds):
     """The surface of one solid, of which `name` is the part of the cells."""
-    surface = isosurface(snapshot, name, 0.5, fields)
+    level = _half(snapshot, name)
+    surface = isosurface(snapshot, name, level, fields)
     if len(surface.triangles) == 0:
         return surface
     mesh = snapshot.mesh
-    surface = in_one_piece(united([surface, cap(snapshot, name, 0.5, fields)]), mesh, about)
+    surface = in_one_piece(united([surface, cap(snapshot, name, level, fields)]), mesh, about)
     surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
     for key, value in surface.values.items():
         surface.values[key] = filled(value, surface.edges()[0])
@@ -112,8 +118,10 @@ def _body(snapshot, name, fields, about, rounds):
     if (surface.edges()[1] == 2).all():
         # Means over cells round off what is curved: give the volume back along the normals.
         volume = snapshot.volume_of_solid(name)
-        for _ in range(3):
-            surface = surface.moved((volume - surface.volume()) / surface.area() * surface.normals())
+        for _ in range(8):  # a part of its size at a time: a coarse mesh may have lost much
+            far = 0.05 * np.sqrt(surface.area())
+            step = np.clip((volume - surface.volume()) / surface.area(), -far, far)
+            surface = surface.moved(step * surface.normals())
     if "stress" in surface.values:
         surface.values["traction"] = traction(surface)
     return surface
@@ -144,7 +152,8 @@ def solid_outline(snapshot, rounds=30):
 
 def _outline(snapshot, name, rounds):
     parts = cells.Simplices(snapshot.mesh)
-    value, places = (parts.extend(v) for v in (snapshot.at_points(name) - 0.5, snapshot.mesh.points))
+    value = parts.extend(snapshot.at_points(name) - _half(snapshot, name))
+    places = parts.extend(snapshot.mesh.points)
     ends, part, edges = cells.crossing(parts.corners, value)
     if len(edges) == 0:
         return np.zeros((0, 2, 3))
@@ -160,7 +169,8 @@ def _outline(snapshot, name, rounds):
     normal[inward] *= -1
     if (count == 2).all():
         area = 0.5 * np.einsum("ij,ij->", points[edges].mean(axis=1) - points.mean(axis=0), normal)
-        lost = (snapshot.volume_of_solid(name) - area) / np.linalg.norm(along, axis=1).sum()
+        length = np.linalg.norm(along, axis=1).sum()
+        lost = np.clip((snapshot.volume_of_solid(name) - area) / length, -0.05 * length, 0.05 * length)
         at = np.stack([np.bincount(edges.ravel(), np.repeat(column, 2), minlength=len(points))
                        for column in normal.T], axis=1)
         points += lost * at / (np.linalg.norm(at, axis=1, keepdims=True) + 1e-300)

@@ -83,7 +83,8 @@ def build(run, snapshot, look):
     if about is not None:
         carried = () if look.colour == "none" else (look.colour,)
         body = surfaces.solid_surface(snapshot, carried)
-        about = 0.5 * (body.points.min(axis=0) + body.points.max(axis=0))
+        if len(body.points):
+            about = 0.5 * (body.points.min(axis=0) + body.points.max(axis=0))
     mesh, box = snapshot.mesh, window(run, snapshot, look, about)
     wall = within(surfaces.wall(mesh), box, mesh)
     camera = scene.fitted([wall.points], *look.eye())
@@ -99,7 +100,7 @@ def build(run, snapshot, look):
         layers.append(_slice(snapshot, look, about, box, speed))
     if "streamlines" in look.parts:
         layers.append(_streamlines(snapshot, look, about, box, camera, speed))
-    if body is not None and "body" in look.parts:
+    if body is not None and len(body.points) and "body" in look.parts:
         colours = (*matplotlib.colors.to_rgb(style.ORANGE), 1)
         if look.colour in body.values:
             bars.insert(0, colours_of(look.colour, body.values[look.colour], BODY, look))
@@ -231,6 +232,10 @@ def over_time(run, look=None, scale=1, most=6):
     carried = () if look.colour == "none" else (look.colour,)
     snapshots = list(run.snapshots(shown))
     bodies = [surfaces.solid_surface(snapshot, carried) for snapshot in snapshots]
+    drawn = [i for i, body in enumerate(bodies) if len(body.points)]  # none is drawn of a speck
+    if not drawn:
+        return None
+    shown, snapshots, bodies = ([some[i] for i in drawn] for some in (shown, snapshots, bodies))
     bars = []
     if carried and all(look.colour in body.values for body in bodies):
         bars = [colours_of(look.colour, np.concatenate([b.values[look.colour] for b in bodies]), BODY, look)]

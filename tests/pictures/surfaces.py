@@ -42,6 +42,17 @@ def check_sphere():
         check(np.ptp(away) < 0.3 / n, f"{kind}: no facets: radius from {away.min():.4f} to {away.max():.4f}")
 
 
+def check_coarse():
+    """A ball of little more than two cells: means over cells leave little of it."""
+    for kind, n in (("hex", 6), ("tet", 5)):
+        mesh = runs.Mesh(*box((1, 1, 1), (n, n, n), kind))
+        one = snapshot(mesh, (0.52, 0.5, 0.47), 0.21)
+        surface = surfaces.solid_surface(one)
+        away = np.linalg.norm(surface.points - (0.52, 0.5, 0.47), axis=1)
+        check(0.12 < away.min() and away.max() < 0.32, f"{kind}, coarse: radius {away.min():.3f} to {away.max():.3f}")
+        check(abs(surface.volume() / one.volume_of_solid() - 1) < 0.01, f"{kind}, coarse: its volume is held")
+
+
 def check_traction():
     """In a shear flow u = (y, 0, 0) at viscosity 2, whatever the pressure level."""
     for kind, n in (("hex", 16), ("tet", 14)):
@@ -138,6 +149,7 @@ def check_resample():
 
 
 check_sphere()
+check_coarse()
 check_traction()
 check_at_a_wall()
 check_seam()

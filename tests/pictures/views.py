@@ -84,6 +84,21 @@ def check_views(run):
           "a streamline goes on across the seam")
 
 
+def check_speck():
+    """What is left of a solid in one cell has no surface, and stops no picture."""
+    arrays = box((1, 1, 1), (6, 6, 6))
+
+    def fields(time):
+        alpha = ball(fsi.Mesh(*arrays), (0.5, 0.5, 0.5), 0.3) if time == 0 else (np.arange(216) == 100) * 0.6
+        return {"u": np.ones((216, 3)), "alpha": alpha}
+    write_run(os.path.join(folder, "speck"), arrays, [0.0, 1.0], fields)
+    run, look = fsi.Run(os.path.join(folder, "speck")), views.Look(renderer="plain", pixels=200)
+    check(len(surfaces.solid_surface(run.snapshot(1)).points) == 0, "a speck has no surface")
+    check(len(views.build(run, run.snapshot(1), look)[0]) == 3, "a view without it is drawn")
+    check(len([axes for axes in views.over_time(run, look).axes if axes.get_title(loc="left")]) == 1,
+          "over time the body is drawn as long as there is one")
+
+
 def check_film(run):
     path = film.film(run, folder, views.Look(renderer="plain", pixels=240, parts=("wall", "body")))
     frames = sorted(os.listdir(os.path.join(folder, "film")))
@@ -122,6 +137,7 @@ def check_without_display():
 check_image()
 seam = run_across_a_seam()
 check_views(seam)
+check_speck()
 check_film(seam)
 check_page(seam)
 check_without_display()
