@@ -16,8 +16,7 @@ SI = {(-1, -2, 1): "Pa", (-2, -2, 1): "Pa/m", (2, -2, 1): "J", (1, -2, 1): "J/m"
 
 FIELDS = {  # name: (words, symbol, unit)
     "speed": ("speed", "|u|", "velocity"), "p": ("pressure", "p", "pressure"),
-    "stretch": ("largest stretch", r"$\lambda_1$", "1"), "Q": ("second invariant", "Q", "1 / time²"),
-    "traction": ("traction", r"$|\sigma n|$", "pressure"), "alpha": ("solid", r"$\alpha$", "1"),
+    "stretch": ("largest stretch", r"$\lambda_1$", "1"), "traction": ("traction", r"$|\sigma n|$", "pressure"),
 }
 
 

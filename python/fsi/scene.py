@@ -83,10 +83,10 @@ def glass(surface, camera, colour=GREY, faint=0.05, rim=0.6):
 
 
 def tubes(lines, radius, sides=8):
-    """Round tubes about lines, each [n, 3]; the values along them are the number of the line."""
-    points, triangles, number, offset = [], [], [], 0
+    """Round tubes about lines, each [n, 3]."""
+    points, triangles, offset = [], [], 0
     turn = np.linspace(0, 2 * np.pi, sides, endpoint=False)
-    for which, line in enumerate(lines):
+    for line in lines:
         along = np.gradient(line, axis=0)
         along /= np.linalg.norm(along, axis=1, keepdims=True) + 1e-300
         first = np.cross(along, np.eye(3)[abs(along).mean(axis=0).argmin()])
@@ -98,16 +98,14 @@ def tubes(lines, radius, sides=8):
         b = (np.arange(len(line) - 1)[:, None] * sides + (np.arange(sides) + 1) % sides).ravel()
         triangles += [offset + np.stack([a, b, a + sides], axis=1),
                       offset + np.stack([b, b + sides, a + sides], axis=1)]
-        number.append(np.full(len(points[-1]), which))
         offset += len(points[-1])
     if not points:
         return surfaces.Surface(np.zeros((0, 3)), np.zeros((0, 3), int))
-    return surfaces.Surface(np.concatenate(points), np.concatenate(triangles),
-                            {"line": np.concatenate(number)})
+    return surfaces.Surface(np.concatenate(points), np.concatenate(triangles))
 
 
 class Grid:
-    """A field at a regular grid over a mesh, for streamlines; NaN outside of the mesh."""
+    """A vector field at a regular grid over a mesh, for streamlines; NaN outside of the mesh."""
 
     def __init__(self, snapshot, name, count=32):
         mesh = snapshot.mesh
@@ -116,9 +114,18 @@ class Grid:
         self.step = max(size.min() / count, (size.prod() / 2e6)**(1 / 3))
         shape = np.maximum(np.ceil(size / self.step - 1e-9).astype(int) + 1, 2)
         self.step = size / (shape - 1)
-        parts = cells.Simplices(mesh)
-        self.values = cells.resample(parts.extend(mesh.points), parts.corners,
-                                     parts.extend(snapshot.at_points(name)), mesh.low, mesh.high, shape)
+        self.values = np.full((*shape, 3), np.nan)
+        # Of the cells with a node of the grid, some at a time: each is many tetrahedra.
+        holds = np.ones(len(mesh.types), bool)
+        for axis in range(3):
+            least, most = mesh.extent((mesh.points[:, axis] - self.low[axis]) / self.step[axis])
+            holds &= np.ceil(least - 1e-6) <= np.floor(most + 1e-6)
+        chosen = np.flatnonzero(holds)
+        for some in np.array_split(chosen, len(chosen) // 50000 + 1):
+            parts = cells.Simplices(mesh, some)
+            found = cells.resample(parts.extend(mesh.points), parts.corners,
+                                   parts.extend(snapshot.at_points(name)), mesh.low, mesh.high, shape)
+            self.values = np.where(np.isnan(found), self.values, found)
 
     def __call__(self, places):
         """Values at places [n, 3], linear between the nodes; NaN outside."""

@@ -43,7 +43,8 @@ class Surface:
     def edges(self):
         """Pairs of points [k, 2], each once, and of how many triangles each is a side."""
         sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-        return np.unique(sides, axis=0, return_counts=True)
+        first, _, count = cells.distinct(sides)
+        return sides[first], count
 
     def moved(self, shift):
         return Surface(self.points + shift, self.triangles, self.values)
@@ -312,8 +313,7 @@ def outer_faces(mesh):
             faces[len(face)].append(corners[:, face])
     outer = []
     for found in (np.concatenate(faces[size]) for size in (3, 4)):
-        _, first, count = np.unique(np.sort(found, axis=1), axis=0, return_index=True,
-                                    return_counts=True)
+        first, _, count = cells.distinct(np.sort(found, axis=1))
         outer.append(found[first[count == 1]])
     return outer
 

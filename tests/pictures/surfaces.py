@@ -103,6 +103,9 @@ def check_cuts():
         cut = fsi.cut(one, "z", 0.4371)
         inner = (abs(cut.points[:, 1] - 0.5) < 0.39) & (abs(cut.points[:, 0] - 1) < 0.89)
         check(abs(cut["u"][:, 0] - cut.points[:, 1])[inner].max() < 1e-9, f"{kind}: a linear velocity is met")
+        line = cut.outline("alpha", 0.5)
+        away = np.linalg.norm(line - (1, 0.5), axis=2)
+        check(abs(away - np.sqrt(0.3**2 - 0.0629**2)).max() < 0.04, f"{kind}: the outline on the section")
         x, y, values = cut.grid(cut["u"], 41)
         check(values.shape == (20, 41, 3) and not values.mask.any() and
               abs(values[..., 0] - y[:, None])[4:-4, 4:-4].max() < 1e-9, f"{kind}: on the grid too")
@@ -140,6 +143,13 @@ def check_wall():
           "of a box all is wall")
 
 
+def check_distinct():
+    rows = np.array([[2, 0, 7], [1, 5, 5], [2, 0, 7], [1, 5, 4]])
+    first, which, count = cells.distinct(rows)
+    check(first.tolist() == [3, 1, 0] and which.tolist() == [2, 1, 2, 0] and count.tolist() == [1, 1, 2],
+          "distinct rows")
+
+
 def check_resample():
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     grid = cells.resample(points, np.array([[0, 1, 2, 3]]), points @ [[1.0], [2], [4]], (0, 0, 0), (1, 1, 1),
@@ -155,5 +165,6 @@ check_at_a_wall()
 check_seam()
 check_cuts()
 check_wall()
+check_distinct()
 check_resample()
 sys.exit(1 if made_up.failures else 0)
