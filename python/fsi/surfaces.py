@@ -33,11 +33,9 @@ class Surface:
 
     def normals(self):
         """Unit vectors at the points, outward where the triangles turn that way."""
-        total = np.zeros_like(self.points)
-        for corner in range(3):
-            for axis in range(3):
-                total[:, axis] += np.bincount(self.triangles[:, corner], self.area_vectors()[:, axis],
-                                              minlength=len(self.points))
+        around = np.repeat(self.area_vectors(), 3, axis=0)
+        total = np.stack([np.bincount(self.triangles.ravel(), column, minlength=len(self.points))
+                          for column in around.T], axis=1)
         return total / (np.linalg.norm(total, axis=1, keepdims=True) + 1e-300)
 
     def edges(self):
@@ -123,6 +121,8 @@ def _body(snapshot, name, fields, about, rounds):
             far = 0.05 * np.sqrt(surface.area())
             step = np.clip((volume - surface.volume()) / surface.area(), -far, far)
             surface = surface.moved(step * surface.normals())
+            if abs(step) < 1e-4 * far:
+                break
     if "stress" in surface.values:
         surface.values["traction"] = traction(surface)
     return surface
