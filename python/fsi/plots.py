@@ -28,7 +28,7 @@ PANELS = (
     Panel("centroid", "centroid across x", "solid", ("y", "z"), "length"),
     Panel("velocity", "velocity of the solid along x", "solid", ("ux",), "velocity"),
     Panel("velocity", "velocity of the solid across x", "solid", ("uy", "uz"), "velocity"),
-    Panel("angle", "angle of the axis to x", "solid", ("angle",), "degrees", floor=1e-3),
+    Panel("angle", "angle of the axis to x", "solid", ("angle",), "degrees", floor=1e-2),
     Panel("aspect", "aspect ratio of the sections", "solid",
           ("aspect_forward", "aspect_back", "aspect_right", "aspect_left"), "1", floor=1e-4),
     Panel("aspect", "aspect ratio of the outlines", "solid", ("aspect_inner", "aspect_outer"), "1",

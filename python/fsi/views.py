@@ -2,6 +2,7 @@
 from dataclasses import dataclass, field
 
 import matplotlib
+import matplotlib.ticker
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -218,7 +219,8 @@ def colour_bars(figure, bars, below):
         share = 1 / len(bars)
         ax = figure.add_axes((share * (i + 0.5) - 0.36 * share, 0.72 * below, 0.72 * share, 0.14 * below))
         mapped = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(bar.low, bar.high), bar.name)
-        figure.colorbar(mapped, cax=ax, orientation="horizontal", label=bar.label, extend=bar.extend)
+        figure.colorbar(mapped, cax=ax, orientation="horizontal", label=bar.label, extend=bar.extend,
+                        ticks=matplotlib.ticker.MaxNLocator(5))
         ax.tick_params(labelsize=8)
 
 
