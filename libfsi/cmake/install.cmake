@@ -1,4 +1,5 @@
-# fsi::fsi for find_package(fsi) from outside, fsi.pc for pkg-config, drivers, meshes and examples.
+# fsi::fsi for find_package(fsi) from outside, fsi.pc for pkg-config, drivers, meshes, examples and the
+# Python package that draws.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -41,4 +42,5 @@ set(data_folder ${CMAKE_INSTALL_DATADIR}/fsi)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/meshes DESTINATION ${data_folder} FILES_MATCHING PATTERN *.geo)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data_folder} USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE PATTERN speed_error EXCLUDE PATTERN stability EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/python DESTINATION ${data_folder} FILES_MATCHING PATTERN *.py)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

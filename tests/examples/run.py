@@ -123,7 +123,7 @@ def main():
                         OF_THE_RUN | SECTIONS | (AXIS if name in ROUND else set()))
             compare(file, one, again, 0, {"wall_per_step"})
     run(["/usr/bin/python3", os.path.join(source, "examples", "draw.py"), one])
-    for picture in ("series.png", "flow.png"):
+    for picture in ("series.png", "flow.png", *(["view.png"] if head(case, "mesh")[0] == "-3" else [])):
         check(os.path.exists(os.path.join(one, picture)), f"{picture} is drawn")
     return 1 if failures else 0
 

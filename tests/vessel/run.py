@@ -80,11 +80,12 @@ def titles(source, folder, *words):
     import draw
     found = {}
 
-    def keep(figure, _, name):
-        found[name] = " | ".join([figure.get_suptitle() if hasattr(figure, "get_suptitle") else ""] +
-                                 [axes.get_title(loc="left") for axes in figure.axes])
-        return name
-    draw.save, sys.argv = keep, ["draw.py", folder, *words]
+    def keep(figure, path, _):
+        title = figure._suptitle.get_text() if figure._suptitle else ""
+        found[os.path.basename(path)] = " | ".join(
+            [title] + [axes.get_title(loc="left") for axes in figure.axes])
+        return path
+    draw.style.save, sys.argv = keep, ["draw.py", folder, "--renderer", "plain", *words]
     draw.main()
     return found
 
@@ -106,10 +107,9 @@ def check_pictures(source, drivers, folder):
         level = re.search(f"t = 0   plane {plane[:4]}(\\S+)", told)
         check(level and abs(float(level.group(1)) - float(plane[4:])) < 0.03,
               f"the plane goes through the solid, {plane}: {told}")
-    import planes
+    from fsi import best_normal
     ways = {"x": [0, 2], "y": [0, 0.1], "z": [0, 3]}
-    check(planes.normal_of(None, ways) == 1 and planes.normal_of("x", ways) == 0 and
-          planes.normal_of(None, {**ways, "z": [0, 0.2]}) == 2,
+    check(best_normal(ways) == "y" and best_normal({**ways, "z": [0, 0.2]}) == "z",
           "a solid that goes along z is seen from where it moves least")
 
 

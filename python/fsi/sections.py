@@ -1,0 +1,124 @@
+"""Pictures of plane sections: the speed with streamlines, and the interface over time in two dimensions."""
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+
+from . import cuts, labels, style, surfaces
+
+AXES = cuts.AXES
+
+
+def spread(count, most):
+    """Up to `most` of `count` numbers, evenly spread, first and last among them."""
+    return list(range(count)) if count <= most else \
+        [int(i) for i in np.unique(np.linspace(0, count - 1, most).round())]
+
+
+def outline(ax, cut, colour, width=1.8):
+    """The interface of the solid on a section."""
+    if cut.snapshot.dim == 2:
+        segments = surfaces.solid_outline(cut.snapshot)
+    else:
+        # In one piece or not: on a section the solid stands where the mesh is.
+        surface = surfaces.solid_surface(cut.snapshot)
+        segments = np.concatenate([surfaces.section(surface.moved(shift), cut.normal, cut.level)
+                                   for shift in copies(cut.snapshot.mesh)])
+    ax.add_collection(LineCollection(segments[..., cut.across], colors=[colour], linewidths=width,
+                                     capstyle="round"))
+
+
+def copies(mesh):
+    """The shifts by a period that bring back what stands beyond a seam."""
+    steps = np.array(list(np.ndindex(*np.where(mesh.period > 0, 3, 1)))) - (mesh.period > 0)
+    return steps * mesh.period
+
+
+def frame(ax, cut, units):
+    ax.set_aspect("equal")
+    ax.set_xlim(cut.low[0], cut.high[0])
+    ax.set_ylim(cut.low[1], cut.high[1])
+    ax.set_xlabel(units.label(AXES[cut.across[0]], "length"))
+    ax.set_ylabel(units.label(AXES[cut.across[1]], "length"))
+    ax.grid(False)
+
+
+def title(cut, units):
+    """The time and the place of a section."""
+    if cut.snapshot.dim == 2:
+        return f"t = {units.number(cut.snapshot.time, 'time')}"
+    digits = 3 - int(np.floor(np.log10((cut.high - cut.low).max())))
+    where = f"   plane {AXES[cut.normal]} = {units.number(round(cut.level, digits) + 0.0, 'length')}"
+    return f"t = {units.number(cut.snapshot.time, 'time')}{where}"
+
+
+def draw_section(ax, cut, top, units):
+    """Speed, streamlines and interface on one section; returns what a colour bar needs."""
+    _, _, speed = cut.grid(cut["speed"], 900)
+    shades = ax.imshow(speed, extent=(cut.low[0], cut.high[0], cut.low[1], cut.high[1]), origin="lower",
+                       vmin=0, vmax=top, interpolation="bilinear")
+    size = cut.high - cut.low
+    gx, gy, velocity = cut.grid(cut["u"][:, cut.across])
+    if abs(velocity).max() > 0:
+        ax.streamplot(gx, gy, velocity[..., 0], velocity[..., 1], color=(1, 1, 1, 0.55), linewidth=0.6,
+                      arrowsize=0.6, density=(1.6, 0.6) if size[0] > 2 * size[1] else 1.1)
+    if "alpha" in cut.snapshot:
+        outline(ax, cut, style.SOLID)
+    frame(ax, cut, units)
+    ax.set_title(title(cut, units), loc="left")
+    return shades
+
+
+def flow(run, normal, numbers=None, units=labels.Units(), top=None):
+    """The speed on a section through the solid, at up to four times."""
+    numbers = spread(len(run.items), 4) if numbers is None else numbers
+    found = list(cuts.cuts_through_solid(run.snapshots(numbers), normal))
+    size = found[0].high - found[0].low
+    wide = size[0] > 2 * size[1]
+    rows, columns = (len(found), 1) if wide else (1, len(found))
+    width, height = (6.5, 5.9 * size[1] / size[0] + 0.5) if wide else \
+        (2.9, 2.35 * size[1] / size[0] + 0.55)
+    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                figsize=(width * columns + (not wide) * 0.7, height * rows + wide * 0.75))
+    top = max(cut["speed"].max() for cut in found) if top is None else top
+    for ax, cut in zip(axes.flat, found):
+        shades = draw_section(ax, cut, top, units)
+        if ax is not axes.flat[0] and not wide:
+            ax.set_ylabel("")
+        if wide and ax is not axes.flat[len(found) - 1]:
+            ax.set_xlabel("")
+    figure.colorbar(shades, ax=axes, label=units.field("speed"), shrink=0.5 if wide else 0.9, aspect=30,
+                    location="bottom" if wide else "right", pad=0.02)
+    return figure
+
+
+def while_solid(run):
+    """The numbers of the field files up to the last one with solid in it."""
+    numbers = list(range(len(run.items)))
+    while numbers and not run.snapshot(numbers[-1]).has_solid():
+        numbers.pop()
+    return numbers
+
+
+def gone(run, numbers, units):
+    """What a title says where the solid has left before the end."""
+    return "" if len(numbers) == len(run.items) else \
+        f"; none is left at t = {units.number(run.times[len(numbers)], 'time')}"
+
+
+def interface(run, units=labels.Units()):
+    """The interface of a run in two dimensions at up to eight times; None without a solid."""
+    numbers = while_solid(run)
+    if not numbers:
+        return None
+    shown = [numbers[i] for i in spread(len(numbers), 8)]
+    figure, ax = plt.subplots(figsize=(4.6, 3.9), layout="constrained")
+    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.92, len(shown)))
+    for snapshot, colour in zip(run.snapshots(shown), colours):
+        cut = cuts.cut(snapshot)
+        outline(ax, cut, colour, 1.5)
+        ax.plot([], [], color=colour, label=f"t = {units.number(snapshot.time, 'time')}")
+    frame(ax, cut, units)
+    ax.set_title(r"interface, $\alpha$ = 0.5" + gone(run, numbers, units), loc="left")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure

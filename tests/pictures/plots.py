@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+"""Plots of tables and sections: what they show and leave out; plots.py SOURCE FOLDER."""
+import os
+import subprocess
+import sys
+
+import numpy as np
+
+import made_up
+from made_up import ball, box, check, write_run
+
+source, folder = made_up.arguments()
+import fsi  # noqa: E402
+from fsi import cuts, plots, sections, style  # noqa: E402
+
+style.apply()
+TIME = np.linspace(0, 1, 11)
+
+
+def solid(angle=45.0, slope=10.0):
+    """A table in which x and the angle change, z and the volume by round-off alone."""
+    return {"t": TIME, "x": TIME, "y": 0.5 + 1e-3 * TIME, "z": 0.5 + 1e-9 * TIME, "ux": 1 + 0 * TIME,
+            "volume": 1 + 1e-14 * TIME, "volume_out": 0 * TIME, "angle": angle + slope * TIME,
+            "min_eig_B": 1 - 0.1 * TIME, "det_B_min": 1 - 1e-12 * TIME, "det_B_max": 1 + 1e-12 * TIME,
+            "aspect_forward": 1 - 0.1 * TIME, "aspect_back": 1 - 0.2 * TIME, "bending_prime": TIME}
+
+
+def titles(figure):
+    return [axes.get_title(loc="left") for axes in figure.axes if axes.get_title(loc="left")]
+
+
+def make(name, modulus, shape="torus", mesh=box((2, 1, 1), (8, 8, 8)), **more):
+    place = os.path.join(folder, name)
+    count = len(mesh[3])
+
+    def fields(time):
+        return {"u": np.full((count, 3), time), "alpha": ball(fsi.Mesh(*mesh), (1, 0.5, 0.5), 0.3 - time)}
+    flow = {"t": TIME[1:], "pressure_gradient": 0.2 + 0 * TIME[1:] + 0.1 / TIME[1:], "divergence_max": TIME[1:]}
+    write_run(place, mesh, more.get("times", [0.0, 0.1, 1.0]), fields,
+              {"solid_shear_modulus": modulus, "solid_shape": shape, "output_dir": name, "fluid_viscosity": "0.01",
+               "flow_mean_velocity": "0.5"}, {"solid": solid(slope=float(modulus)), "flow": flow})
+    return fsi.Run(place)
+
+
+def check_series():
+    ring = make("ring", "10")
+    told = titles(plots.series(ring))
+    check("centroid along x" in told and "centroid across x: y" in told, f"what changes is shown: {told}")
+    for words in ("volume", "det B", "divergence", "velocity"):
+        check(not any(words in title for title in told), f"left out as round-off or not asked for: {words}")
+    told = titles(plots.series(ring, ["angle", "aspect", "bending", "gradient", "det", "volume"]))
+    check(len(told) == 6 and any(title.startswith("angle") for title in told) and "det B" in told and
+          "volume" in told, f"asked for: shown, by key and by column: {told}")
+    check("angle of the axis to x [°]" not in titles(plots.series(make("ball", "10", "sphere"))),
+          "a round solid has no axis")
+    try:
+        plots.series(ring, ["angel"])
+        check(False, "a word that is not known is refused")
+    except ValueError as error:
+        check('"angel"' in str(error) and "gradient" in str(error), "and told, with those that are known")
+
+
+def check_empty_pipe():
+    square = make("square", "1")
+    check(plots.empty_gradient(square) is None, "no line of the empty pipe in one that is not round")
+    points, *rest = box((2, 1, 1), (4, 12, 12))
+    x, y = (2 * points[:, 1:] - 1).T
+    around = np.column_stack([points[:, 0], x * np.sqrt(1 - y**2 / 2) / 2, y * np.sqrt(1 - x**2 / 2) / 2])
+    gradient = plots.empty_gradient(make("round", "1", mesh=(around, *rest)))
+    check(gradient is not None and abs(gradient - 0.16) < 1e-12, f"that of a round one: {gradient}")
+
+
+def check_overlay():
+    runs = [make("soft", "1"), make("stiff", "5"), make("hard", "9")]
+    figure = plots.overlay(runs, ["angle", "aspect"])
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    check(names == ["solid_shear_modulus 1", "solid_shear_modulus 5", "solid_shear_modulus 9"],
+          f"the legend tells what differs: {names}")
+    check(len(titles(figure)) == 3 and all(len(axes.lines) == 3 for axes in figure.axes[:3]),
+          "a panel for each column, a line for each run")
+    command = [sys.executable, os.path.join(source, "examples", "draw.py"), *(run.folder for run in runs)]
+    said = subprocess.run(command + ["--show", "angle", "--output", folder], capture_output=True, text=True)
+    check(said.returncode == 0 and os.path.exists(os.path.join(folder, "overlay.png")), "the command draws it")
+    said = subprocess.run(command[:3] + ["--show", "angel"], capture_output=True, text=True)
+    check(said.returncode == 1 and said.stderr.startswith("draw.py: nothing is called"),
+          "and refuses what it does not know in a sentence")
+
+
+def check_sections():
+    """Twenty cells: the plane lies between two layers; the solid has left by the end."""
+    run = make("layers", "1", mesh=box((2, 1, 1), (20, 20, 20)), times=[0.0, 0.1, 1.0])
+    check(sections.while_solid(run) == [0, 1], "the last time with solid in it")
+    figure = sections.flow(run, "z")
+    told = titles(figure)
+    check(told[0].startswith("t = 0   plane z = 0.5") and len(told) == 3, f"sections are drawn: {told}")
+    style.save(figure, os.path.join(folder, "flow.png"))
+    flat = make("flat", "1", "sphere", box((2, 1), (16, 8), "triangle"))
+    check("none is left at t = 1" in titles(sections.interface(flat))[0], "and the interface is, as long as it is")
+    check(cuts.best_normal({"x": [0, 2], "y": [0, 0.1], "z": [0, 3]}) == "y", "seen from where it moves least")
+
+
+check_series()
+check_empty_pipe()
+check_overlay()
+check_sections()
+sys.exit(1 if made_up.failures else 0)

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""Reading of runs, and the units of their columns against doc/reference/files.md: reading.py SOURCE FOLDER."""
+import os
+import re
+import sys
+
+import numpy as np
+
+import made_up
+from made_up import box, check, write_run
+
+source, folder = made_up.arguments()
+import fsi  # noqa: E402
+from fsi import labels, plots  # noqa: E402
+
+
+def check_run():
+    place = os.path.join(folder, "run")
+    count = 4 * 3 * 2
+
+    def fields(time):
+        return {"u": np.full((count, 3), time), "alpha": np.linspace(0, 1, count)}
+    write_run(place, box((4, 3, 2), (4, 3, 2)), [0.0, 0.5], fields,
+              {"mesh_periodic": "inlet,outlet,front,back", "solid_shear_modulus": "10", "time_end": "0.5"},
+              {"solid": {"t": [0, 1], "x": [1, 3], "y": [0, 0], "z": [0, 0]}, "flow": {"t": [1], "dt": [0.1]}})
+    with open(os.path.join(place, "solid.csv"), "a", encoding="utf-8") as file:
+        file.write("2,5")  # a row that is being written
+    run = fsi.Run(place)
+    check(run.times == [0.0, 0.5] and run.options["solid_shear_modulus"] == "10", "times and options")
+    check(len(run.tables["solid"]["t"]) == 2, "a row that is half written is left out")
+    check(np.allclose(run.centroid(0.25), (1.5, 0, 0)), "the centroid at a time")
+    last = run.snapshot(-1)
+    check(last.time == 0.5 and np.allclose(last["u"], 0.5) and np.allclose(last["speed"], 0.75**0.5),
+          "fields, and what follows from them")
+    check(np.allclose(last.mesh.period, (4, 0, 2)), f"periods by the names of patches: {last.mesh.period}")
+    low, high = (last.mesh.points[:, 0] == side for side in (0, 4))
+    values = last.at_points("alpha")
+    check(np.allclose(np.sort(values[low]), np.sort(values[high])), "both sides of a seam have one value")
+    check(run.snapshot(0).mesh is last.mesh, "the mesh is read once")
+    several = fsi.Snapshot(last.mesh, 0, {"alpha_a": np.full(count, 0.25), "alpha_b": np.full(count, 0.5),
+                                          "B_a": np.ones((count, 6)), "B_b": np.full((count, 6), 4.0)})
+    check(np.allclose(several["alpha"], 0.75) and np.allclose(several["B"], 3), "several solids together")
+    check(fsi.table(os.path.join(folder, "none.csv")) == {} and fsi.series(folder) == [], "nothing there: empty")
+
+
+def check_stretch():
+    mesh = fsi.Mesh(*box((1, 1, 1), (2, 2, 2)))
+    stretch = np.tile([1.21, 1, 1 / 1.21, 0, 0, 0], (8, 1))
+    alpha = np.array([1, 1, 1, 1, 0, 0, 0, 0.0])
+    stretch[4:] = (9, 9, 9, 0, 0, 0)
+    one = fsi.Snapshot(mesh, 0, {"B": stretch, "alpha": alpha})
+    values = one.at_points("stretch")
+    check(np.allclose(one["stretch"][:4], 1.1), "largest stretch")
+    check(np.allclose(values[np.isfinite(values)], 1.1) and np.isnan(values).any(),
+          "the strain at points is of the solid alone")
+
+
+def check_units():
+    """Each panel has the unit that the reference gives its columns."""
+    with open(os.path.join(source, "doc", "reference", "files.md"), encoding="utf-8") as file:
+        rows = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in file
+                if line.startswith("| `")]
+    told = {name: row[2] for row in rows if len(row) == 6 for name in re.findall(r"`([^`]+)`", row[0])}
+    for panel in plots.PANELS:
+        for column in panel.columns:
+            name = column.replace("*", "NAME")
+            check(told.get(name) == panel.unit, f"{name}: {panel.unit}, in the reference {told.get(name)}")
+    units = labels.Units("m", "s", "kg")
+    check(units("pressure") == "Pa" and units("force / volume") == "Pa/m" and units("1 / time²") == "1/s²" and
+          units("volume / time", 2) == "m²/s" and units("1") == "", "units in SI")
+    units = labels.Units("mm", "s", "mg")
+    check(units("pressure") == "mg/(mm s²)" and units.label("speed", "velocity") == "speed [mm/s]", "in others")
+    check(labels.Units().label("speed", "velocity") == "speed", "without units: none")
+
+
+check_run()
+check_stretch()
+check_units()
+sys.exit(1 if made_up.failures else 0)

@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""Pictures in three dimensions, by VTK where it is at hand and by numpy: views.py SOURCE FOLDER."""
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+
+import made_up
+from made_up import ball, box, check, write_run
+
+source, folder = made_up.arguments()
+import fsi  # noqa: E402
+from fsi import film, render, scene, style, surfaces, views  # noqa: E402
+from PIL import Image  # noqa: E402
+
+style.apply()
+RENDERERS = ["plain"] + (["vtk"] if render.vtk_works() else [])
+
+
+def run_across_a_seam():
+    place = os.path.join(folder, "seam")
+    mesh = fsi.Mesh(*box((2, 1, 1), (20, 10, 10)), (2, 0, 0))
+
+    def fields(time):
+        x = mesh.centres()
+        speed = 1 - (2 * x[:, 1] - 1)**2
+        away = x - (0.1, 0.5, 0.5)
+        away[:, 0] -= 2 * np.round(away[:, 0] / 2)
+        unit = np.tile([1.0, 1, 1, 0, 0, 0], (len(x), 1))
+        unit[:, 0] += 0.2 * away[:, 0]
+        return {"u": np.column_stack([speed, 0 * speed, 0 * speed]), "p": x[:, 0], "Q": -speed, "B": unit,
+                "alpha": ball(mesh, (0.1 + time, 0.5, 0.5), 0.25, (2, 0, 0))}
+    arrays = (mesh.points, mesh.corners, mesh.starts, mesh.types)
+    time = np.linspace(0, 1, 5)
+    write_run(place, arrays, [0.0, 1.0], fields, {"mesh_periodic": "inlet,outlet", "solid_shear_modulus": "10"},
+              {"solid": {"t": time, "x": 0.1 + time, "y": 0.5 + 0 * time, "z": 0.5 + 0 * time, "angle": 45 + time}})
+    return fsi.Run(place)
+
+
+def check_image():
+    """A red ball before a blue sheet: what covers what, where, and how bright."""
+    mesh = fsi.Mesh(*box((1, 1, 1), (12, 12, 12)))
+    ball_of = surfaces.solid_surface(fsi.Snapshot(mesh, 0, {"alpha": ball(mesh, (0.5, 0.5, 0.5), 0.3)}))
+    sheet = surfaces.Surface(np.array([[0, 0, 0.5], [1, 0, 0.5], [1, 1, 0.5], [0, 1, 0.5]]),
+                             np.array([[0, 1, 2], [0, 2, 3]]))
+    camera = scene.fitted([sheet.points], (0, 0, 1), (0, 1, 0), margin=1.25)
+    layers = [scene.painted(ball_of, (1, 0, 0, 1)), scene.painted(sheet, (0, 0, 1, 1), lit=False),
+              scene.painted(sheet.moved(0.4), (0, 1, 0, 0.25), lit=False)]
+    pictures = {}
+    for renderer in RENDERERS:
+        picture = pictures[renderer] = render.image(layers, camera, 200, 160, renderer)
+        check(picture.shape == (160, 200, 3) and np.allclose(picture[2, 2], 1), f"{renderer}: on white")
+        check(np.allclose(picture[135, 50], (0, 0, 1), atol=0.01), f"{renderer}: the sheet {picture[135, 50]}")
+        check(picture[95, 85, 0] > 0.5 and picture[95, 85, 2] < 0.2, f"{renderer}: the ball is before it")
+        green = picture[12, 190]
+        check(np.allclose(green, (0.75, 1, 0.75), atol=0.02), f"{renderer}: glass on white {green}")
+        red = (picture[..., 0] > 0.3) & (picture[..., 1] < 0.3)
+        check(abs(red.sum() / 128**2 - np.pi * 0.3**2) < 0.03, f"{renderer}: the ball's disc {red.sum() / 128**2:.3f}")
+    if len(pictures) == 2:
+        apart = abs(pictures["plain"] - pictures["vtk"])
+        check(apart.mean() < 0.01, f"both draw the same: apart by {apart.mean():.4f} in the mean")
+    else:
+        print("VTK is not at hand: left out")
+
+
+def check_views(run):
+    for renderer in RENDERERS:
+        look = views.Look(renderer=renderer, q=-0.5, relative=True, colour="stretch", pixels=300)
+        layers, camera, bars = views.build(run, run.snapshot(0), look)
+        check(len(layers) == 5 and [bar.label.split()[0] for bar in bars] == ["largest", "speed"],
+              f"{renderer}: wall, slice, streamlines, body and vortices, with two bars")
+        body = layers[3]
+        check(np.ptp(body.points[:, 0]) < 0.55, f"{renderer}: the body is in one piece")
+        middle = 0.5 * (body.points.min(axis=0) + body.points.max(axis=0))
+        check(np.linalg.norm((middle - camera.middle) @ camera.axes()[0]) < 0.02, "the camera follows it")
+        path = style.save(views.view(run, 0, look, 2), os.path.join(folder, renderer + ".png"), 2)
+        wide = Image.open(path).size[0]
+        check(570 < wide < 700, f"{renderer}: twice the resolution, {wide} pixels wide")
+        style.save(views.over_time(run, look), os.path.join(folder, renderer + "_body.png"))
+    lines = [line for line in scene.streamlines(scene.Grid(run.snapshot(0), "u"), [[1.9, 0.5, 0.5]], 1.0)]
+    check(len(lines) == 1 and abs(np.ptp(lines[0][:, 0]) - 2) < 0.05 and np.ptp(lines[0][:, 1]) < 1e-6,
+          "a streamline goes on across the seam")
+
+
+def check_speck():
+    """What is left of a solid in one cell has no surface, and stops no picture."""
+    arrays = box((1, 1, 1), (6, 6, 6))
+
+    def fields(time):
+        alpha = ball(fsi.Mesh(*arrays), (0.5, 0.5, 0.5), 0.3) if time == 0 else (np.arange(216) == 100) * 0.6
+        return {"u": np.ones((216, 3)), "alpha": alpha}
+    write_run(os.path.join(folder, "speck"), arrays, [0.0, 1.0], fields)
+    run, look = fsi.Run(os.path.join(folder, "speck")), views.Look(renderer="plain", pixels=200)
+    check(len(surfaces.solid_surface(run.snapshot(1)).points) == 0, "a speck has no surface")
+    check(len(views.build(run, run.snapshot(1), look)[0]) == 3, "a view without it is drawn")
+    check(len([axes for axes in views.over_time(run, look).axes if axes.get_title(loc="left")]) == 1,
+          "over time the body is drawn as long as there is one")
+
+
+def check_film(run):
+    path = film.film(run, folder, views.Look(renderer="plain", pixels=240, parts=("wall", "body")))
+    frames = sorted(os.listdir(os.path.join(folder, "film")))
+    sizes = {Image.open(os.path.join(folder, "film", name)).size for name in frames}
+    check(os.path.exists(path) and frames == ["frame_0000.png", "frame_0001.png"] and len(sizes) == 1,
+          f"a film of equal frames: {frames}, {sizes}")
+
+
+def check_page(run):
+    """doc/howto/pictures.md: the Python of the page runs, and it names every option of the command."""
+    with open(os.path.join(source, "doc", "howto", "pictures.md"), encoding="utf-8") as file:
+        page = file.read()
+    code = re.search(r"```python\n(.*?)```", page, re.S).group(1).replace("out/torus", run.folder)
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=source)
+    check(said.returncode == 0 and said.stdout.count("\n") == 4 and said.stdout.startswith("10 46.0"),
+          f"the Python of the page runs: {said.stdout}{said.stderr}")
+    draw = [sys.executable, os.path.join(source, "examples", "draw.py")]
+    told = subprocess.run(draw + ["--help"], capture_output=True, text=True).stdout
+    options = set(re.findall(r"^  (--[a-z]+)", told, re.M))
+    named = set(re.findall(r"(--[a-z]+)(?![\w-])", page)) - {"--help"}
+    check(len(options) > 10 and options == named, f"the page names every option: {options ^ named}")
+    for wrong in (["--parts", "wal"], ["--units", "m,s"]):
+        said = subprocess.run(draw + [run.folder, *wrong], capture_output=True, text=True)
+        check(said.returncode == 2 and "error: argument" in said.stderr, f"refused: {wrong}")
+
+
+def check_without_display():
+    """Without a server to draw on, VTK is left alone: it would end the program."""
+    code = f"import sys; sys.path.insert(0, {os.path.join(source, 'python')!r}); from fsi import render; " \
+        "print(render.vtk_works())"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                          env={"PATH": folder, "DISPLAY": ":987"})
+    check(said.stdout.strip() == "False", f"a display that does not answer is not taken: {said.stdout}{said.stderr}")
+
+
+check_image()
+seam = run_across_a_seam()
+check_views(seam)
+check_speck()
+check_film(seam)
+check_page(seam)
+check_without_display()
+sys.exit(1 if made_up.failures else 0)
