@@ -62,7 +62,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
   // T goes with log B, here half a step on
   const auto bounded = [&](const Tensor& L, Index c) {
     if (snapshot.cuts == nullptr) return L;
-    const Tensor excess = excess_of_work(L, snapshot, alpha, mesh_, c);
+    const Tensor excess = excess_of_work(L, snapshot, alpha, extension_, mesh_, c);
     return bound_by_work(L, excess, psi[c] + (dt / 2) * log_rate(L, psi[c]));
   };
   const auto of_own_side = [&](Index c) {

@@ -92,7 +92,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     const Tensor spin = 0.5 * (L_f + -1.0 * transpose(L_f));
     const Vec3 rise = solid.u[N] - solid.u[P];
     const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
-    if (dot(flux, rise - dot(spin, mesh_.d[f])) < 0) continue;
+    if (solid.one_sided && dot(flux, rise - dot(spin, mesh_.d[f])) < 0) continue;
     force[P] += (1 / mesh_.V[P]) * flux;
     force[N] -= (1 / mesh_.V[N]) * flux;
   }

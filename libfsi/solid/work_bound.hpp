@@ -1,7 +1,10 @@
 #pragma once
 // A bound for the strain of the solid's outermost cells: the work that its force takes up.
 
+#include <cmath>
+
 #include "libfsi/field/field.hpp"
+#include "libfsi/solid/extension.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
 
 namespace fsi::solid {
@@ -12,21 +15,26 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
          T.yz * (L.yz + L.zy);
 }
 
-/// M - L, where M is the gradient on which the elastic force works in known cell c. With the stress
-/// T there and in what goes on with it around the solid, ElasticForce takes from the flow, where it
-/// takes W T : L from a linear one of gradient L on the same faces, W T : (M - L) more:
-///   W (M - L) = sum_f w [alpha_f e (x) S_f + (alpha' - alpha_f) (e . S_f) n (x) n],
-///   e = u_N - u_P - L . d,   W = sum_f w alpha' d . S_f / dim,
-/// alpha' the mean of both cells, n the surface's normal, w the cell's part of the face's stress, 1
-/// where the other cell goes on with it. Zero where no face has a part of it.
+/// M - L, where M is the gradient on which the elastic force works in known cell c. Let T be the
+/// stress there and in what goes on with it around the solid. From a flow whose gradients are L and
+/// those of the cells inside, ElasticForce takes W T : L, from u
+///   W T : M,   W (M - L) = sum_f w [alpha_f e (x) S_f + (alpha' - alpha_f) (e . S_f) n (x) n],
+///   e = u_N - u_P - L_f . d,   W = sum_f w alpha' d . S_f / dim,
+/// L_f the mean of L and that of an inner cell behind the face, else L, alpha' that of both cells,
+/// n the surface's normal, w the cell's part of the face's stress, 1 where the other cell goes on
+/// with it. Zero where no face has a part of it.
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
-                      const Mesh& mesh, Index c);
+                      const Extension& extension, const Mesh& mesh, Index c);
 
-/// L - chi T,  chi = max(0, -T : excess) / (T : T): gone is the part of L by which the cell would
-/// take up more energy than the force takes from the flow.
+/// L - chi T,  chi = max(0, -T : excess - |T| |D| / 10) / (T : T): gone is the part of L by which
+/// the cell would take up more energy than the force takes from the flow. A tenth of the largest
+/// power that D allows is what M of a wave of 15 cells and more is off by.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {
   const Tensor t{T.xx, T.xy, T.xz, T.xy, T.yy, T.yz, T.xz, T.yz, T.zz};
-  const Real made = -power(T, excess), square = power(T, t);
+  constexpr Real allowed = 0.1;
+  const Tensor D = 0.5 * (L + transpose(L));
+  const Real square = power(T, t);
+  const Real made = -power(T, excess) - allowed * std::sqrt(square * trace(dot(D, D)));
   return made > 0 && square > 0 ? L + (-made / square) * t : L;
 }
 

@@ -204,7 +204,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                      .weights = body.weights,
                                      .strain = one_sided ? &one_sided->strain() : nullptr,
                                      .contact = &contact,
-                                     .cuts = body.extended() ? &cuts : nullptr,
+                                     .cuts = body.two_viscosities ? nullptr : &cuts,
                                      .wave_speed = std::sqrt(body.G / body.rho),
                                      .recovery = body.G / body.mu,
                                      .memory = body.remembers() ? &*body.memory : nullptr};
