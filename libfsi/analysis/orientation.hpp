@@ -9,7 +9,7 @@ namespace fsi::analysis {
 
 /// Second moments of the surface about the centroid, and the axis they give.
 struct Orientation {
-  SymTensor gyration;
+  SymTensor gyration;           ///< second moments
   std::array<Real, 3> value{};  ///< eigenvalues, ascending; in 2-D the two in the plane, then 0
   Vec3 n;                       ///< axis of the smallest: of revolution, for a disc or a ring
   Real angle = 0;               ///< between n and the x axis, degrees, 0 to 90

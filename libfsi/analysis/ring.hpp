@@ -8,6 +8,7 @@ namespace fsi::analysis {
 
 /// Axes that turn with the ring: xi = n its axis, zeta across, eta = xi x zeta.
 struct RingFrame {
+  /// Unit vectors.
   Vec3 zeta, eta, xi;
 };
 

@@ -17,6 +17,7 @@ class CentreLine {
   /// Collective. Errors: Error{input} where the mesh has no such patches.
   CentreLine(const Mesh& mesh, const std::string& from, const std::string& to);
 
+  /// Its arc length.
   Real length() const { return arc_.back(); }
   /// The point at s along the line, and its direction there (of norm 1).
   std::pair<Vec3, Vec3> at(Real s) const;

@@ -31,8 +31,11 @@ class Density {
   /// Collective. Sets D, owned and halo, from what was added.
   void finish();
 
+  /// Density of the fluid.
   Real rho_0() const { return rho_0_; }
+  /// rho_f.
   const FaceField<Real>& of_face() const { return of_face_; }
+  /// rho_c.
   const CellField<Real>& of_cell() const { return of_cell_; }
   /// D.
   const CellField<Vec3>& inertia() const { return inertia_; }

@@ -16,17 +16,18 @@ namespace fsi::flow {
 
 /// What enters the face flux besides u*.
 struct FluxTerms {
-  const std::vector<Tensor>& L_f;  ///< of u*, at irregular faces
-  const CellField<Real>& p;
-  const CellField<Vec3>& grad_p;
+  const std::vector<Tensor>& L_f;           ///< of u*, at irregular faces
+  const CellField<Real>& p;                 ///< pressure at the cells
+  const CellField<Vec3>& grad_p;            ///< its averaged gradient
   const std::vector<Vec3>& grad_p_f;        ///< of p at irregular faces
   const BoundaryField<Real>& p_b;           ///< read on openings only
   const FaceField<Real>& rhie_chow_source;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f .
                                             ///< d; 0 outside the solid
-  const FaceField<Real>& mu;
-  const FaceField<Real>& theta;
+  const FaceField<Real>& mu;                ///< viscosity at the faces
+  const FaceField<Real>& theta;             ///< implicit share of the viscous term
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
+  /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
   const Density* density = nullptr;        ///< none: rho everywhere
   const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only

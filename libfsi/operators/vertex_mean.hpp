@@ -63,8 +63,8 @@ struct PressureStencil {
   PressureStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& given)
       : cells(mesh, weights, given), at_faces(mesh, cells) {}
 
-  GradientStencil cells;
-  VertexMean<Vec3> at_faces;
+  GradientStencil cells;      ///< gradient in the cells
+  VertexMean<Vec3> at_faces;  ///< and at irregular faces
 };
 
 }  // namespace fsi

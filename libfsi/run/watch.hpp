@@ -12,6 +12,7 @@ namespace fsi {
 /// Tells each of these once a run, on rank 0.
 class Watch {
  public:
+  /// bodies: count of solids.
   explicit Watch(std::size_t bodies) : said_(bodies) {}
 
   /// A warning when `made`, the part of the energy that comes from nothing, is odd; where it is

@@ -31,6 +31,7 @@ struct AdvectReport {
 
 /// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
 struct AdvectScratch {
+  /// mesh must outlive it.
   explicit AdvectScratch(const Mesh& mesh);
 
   FaceField<Real> solid;     ///< volume of solid through each face in the last step, from P to N
@@ -38,6 +39,7 @@ struct AdvectScratch {
   std::vector<Index> full;   ///< other faces inside the solid
   std::vector<Index> cells;  ///< owned cells of `faces`
   std::vector<Index> rim;    ///< internal faces with a halo cell
+  /// [n_faces], [n_cells] whether the item is in a list.
   std::vector<std::uint8_t> face_marked, cell_marked;
   CellField<Real> speed;  ///< of the interface along n_hat
   CellField<Real> share;  ///< of a cell's outflow changed by a round of redistribution

@@ -14,6 +14,7 @@ namespace fsi::vof {
 /// more than 1 by the error of the planes.
 class Separation {
  public:
+  /// bodies: count of solids.
   Separation(const Mesh& mesh, std::size_t bodies);
 
   /// Collective. In cells where S = sum_i alpha_i > 1 each body gives up the part alpha_i / S of
