@@ -24,7 +24,7 @@ struct Motion {
 };
 
 /// Collective. x_c = sum alpha x V / sum alpha V, [Matsumiya25] (18), u_c = sum alpha u V / sum
-/// alpha V, (22), over owned cells, each at its image nearest to the solid: the solid must be
+/// alpha V, (22), over owned cells, each at its image nearest to the solid. The solid must be
 /// shorter than half a period, and move by less than that between calls. Without any solid the
 /// centroid stays and the velocity is zero. On return `tracker` stands at the new centroid.
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,

@@ -17,8 +17,8 @@ struct Orientation {
 
 /// Collective. Area-weighted gyration tensor of the surface about `centroid`,
 ///   G = (1/A) integral (x - x_c)(x - x_c) dA,   [Matsumiya25] (21),
-/// where the paper takes the mean over points: facets differ in size. n is the eigenvector of the
-/// smallest eigenvalue, with the sign that agrees with `previous` (zero: n.x >= 0).
+/// where the paper takes the mean over points. Facets differ in size. The axis n is the eigenvector
+/// of the smallest eigenvalue, with the sign that agrees with `previous` (zero: n.x >= 0).
 /// Zero everywhere where there is no surface.
 Orientation orientation(const Surface& surface, const Vec3& centroid, const Vec3& previous = {});
 

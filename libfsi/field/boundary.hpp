@@ -70,9 +70,9 @@ using Condition = std::variant<Wall, Slip, FixedVelocity, FlowRate, Opening>;
 using Conditions = std::map<std::string, Condition>;
 
 /// The conditions of a mesh's patches, in their order.
-/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, a wall
-/// moves through itself, a load is negative or has a capacitance without a resistance beside it,
-/// flow rates on all patches do not add up to zero at t = 0.
+/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, or a
+/// wall moves through itself. So it is where a load is negative or has a capacitance without a
+/// resistance beside it, and where flow rates on all patches do not add up to zero at t = 0.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.

@@ -10,7 +10,7 @@
 namespace fsi::flow {
 
 /// The points of the line are the centres of the surfaces of equal potential q, Lap q = 0, q = 1 at
-/// the first patch, 0 at the second, no flux through all others; cells count by V |grad q|^2, so
+/// the first patch, 0 at the second, no flux through all others. Cells count by V |grad q|^2, so
 /// that dead ends, where the potential stands still, do not.
 class CentreLine {
  public:

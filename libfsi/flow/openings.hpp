@@ -14,7 +14,7 @@ namespace fsi::flow {
 /// The openings of a mesh.
 ///
 /// A given static pressure leaves the flow into the domain without a bound on the energy it brings
-/// along: what flows in faster brings more, and on tetrahedra single faces run away at Reynolds
+/// along. What flows in faster brings more, and on tetrahedra single faces run away at Reynolds
 /// numbers of some hundred. So the total pressure is given for what departs from a smooth profile,
 ///
 ///   p_b = p + rho / 2 (s U^2 - u_n^2)     where u_n = u_P . n < 0,

@@ -52,7 +52,7 @@ struct FluxTerms {
 /// |u_f|, gradually from none of c_f to 1e-7 of the stress: the jump at the surface of a solid
 /// would else leak through it with a flux in proportion to dt. With a density rho is that of the
 /// face, and what the cells make of all forces is taken out for what the face makes of them
-/// (flow/density.hpp): where everything moves with one acceleration U(u*) is right already, and
+/// (flow/density.hpp). Where everything moves with one acceleration U(u*) is right already, and
 /// this with the brace is zero. Boundary: prescribed velocity, or
 /// the same with p_b at openings. On return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,

@@ -27,7 +27,7 @@ inline Real part_below(const Levels<3>& q, Real s) {
 }
 
 /// Mean of part_below over the levels between s0 and s1 (any order; the value at s0 where they are
-/// equal): the share of a time step for which a face lies behind a plane that moves evenly.
+/// equal). It is the share of a time step for which a face lies behind a plane that moves evenly.
 /// Exact, piece by piece between the passing of corners, without cancellation.
 Real mean_part_below(const Levels<2>& q, Real s0, Real s1);
 /// The same on a triangle.

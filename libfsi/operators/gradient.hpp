@@ -41,7 +41,7 @@ void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryFie
 /// The gradient of a pressure, whose force must be one of face values,
 ///   grad q_c = (1/V) sum_f (q_f - q_c) S,   q_f = (1 - lambda) q_P + lambda q_N + (grad q)_f .
 ///   skew,
-/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets, and but for the
+/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets. But for the
 /// skewness it is the adjoint of the flux of lambda u_P + (1 - lambda) u_N, so that a pressure
 /// works on a velocity through the divergence of that alone [Trias14]. Exact for linear fields.
 /// Where the boundary has no value, q_f is q_P + grad q_c . d, in triangles and tetrahedra, whose

@@ -66,9 +66,9 @@ struct SlopeFit {
   Tensor R;      ///< of what du is more than guess . r
 };
 
-/// Inverse of M over the vertex neighbours of owned cell c; on directions in which these do not
-/// spread (a corner cell, a layer one cell thick) the pseudo-inverse, so that the slope there is
-/// zero.
+/// Inverse of M over the vertex neighbours of owned cell c. On directions in which these do not
+/// spread (a corner cell, a layer one cell thick) it is the pseudo-inverse, so that the slope there
+/// is zero.
 SymTensor inverse_moments(const Mesh& mesh, Index c);
 
 /// grad q = M^-1 sum w r (q_k - q_c) over the vertex neighbours of owned cell c, exact for linear

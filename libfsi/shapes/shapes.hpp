@@ -18,8 +18,8 @@ using Shape = std::function<Real(const Vec3&)>;
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 // Each shape below is centred at the origin with its axis of revolution along x. A 2-D run sees the
-// section with the plane z = 0: a sphere is a disc, a torus is a pair of discs, a cylinder is a
-// rectangle; give `ellipsoid` and `box` an infinite extent along z there. Lengths must be positive
+// section with the plane z = 0. A sphere is a disc, a torus is a pair of discs, a cylinder is a
+// rectangle. Give `ellipsoid` and `box` an infinite extent along z there. Lengths must be positive
 // (Error{input}), infinite only where it is said.
 
 /// Ball; exact distance.
