@@ -47,6 +47,8 @@ def main():
              if not page.startswith(os.path.join(site, "api") + os.sep)]
     outside = {match for page in pages for match in LOADED.findall(read(page)) if 'rel="canonical"' not in match}
     check(not outside, f"{len(pages)} pages load nothing from elsewhere {sorted(outside)}")
+    wrong = [os.path.basename(page) for page in pages if "<em> " in read(page)]
+    check(not wrong, f"a star with a blank beside it is a star {wrong}")
     check('class="arithmatex"' in read(site, "theory", "flow.html"), "formulas are set")
     return 1 if failures else 0
 
