@@ -1,12 +1,23 @@
 // Flow between two plates, driven by a force that pulsates: pulsed-channel [case.yaml] [options].
+// Writes a table of its own, speed.csv, beside those of every run.
 
 #include <libfsi/fsi.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 using fsi::Real;
 using fsi::Vec3;
+
+/// The largest speed in the mesh; collective.
+Real largest_speed(const fsi::Mesh& mesh, const fsi::Solver& solver) {
+  Real largest = 0;
+  for (fsi::Index c = 0; c < mesh.n_owned; ++c)
+    largest = std::max(largest, norm(solver.state().u[c]));
+  return fsi::global_max(largest);
+}
 
 fsi::RunStatus pulsed_channel() {
   // 1 parameters
@@ -24,9 +35,10 @@ fsi::RunStatus pulsed_channel() {
   // 2 mesh, boundary conditions and force
   const fsi::Mesh mesh = fsi::read_mesh(setup.mesh);
   setup.flow.conditions = {{"bottom", fsi::Wall{}}, {"top", fsi::Wall{}}};
-  setup.flow.body_force = [=](const Vec3&, Real t) {
-    return Vec3{mean * (1 + swing * std::cos(2 * std::numbers::pi * t / period)), 0, 0};
+  const auto force = [=](Real t) {
+    return mean * (1 + swing * std::cos(2 * std::numbers::pi * t / period));
   };
+  setup.flow.body_force = [=](const Vec3&, Real t) { return Vec3{force(t), 0, 0}; };
   fsi::describe(setup, mesh, 1, mean / (8 * setup.physics.mu_f));
 
   // 3 solver and initial state
@@ -36,6 +48,10 @@ fsi::RunStatus pulsed_channel() {
 
   // 4 what to write
   fsi::Output output(setup, options, solver, "pulsed-channel");
+  const std::string file = setup.output.directory + "/speed.csv";
+  const std::vector<std::string> columns{"t", "force", "largest_speed"};
+  fsi::io::Table table = setup.output.restart ? fsi::io::Table(file, columns, solver.state().t)
+                                              : fsi::io::Table(file, columns);
 
   // 5 time
   fsi::Clock clock(setup.time.end, solver.state().t);
@@ -44,6 +60,7 @@ fsi::RunStatus pulsed_channel() {
     const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
     clock.set(solver.state().t);
     output.after_step(limit, dt);
+    table.row(std::array{clock.t(), force(clock.t()), largest_speed(mesh, solver)});
   }
   return output.finish();
 }

@@ -10,9 +10,11 @@ namespace fsi::analysis {
 
 /// Centre, half axes and the angle of the major one to the first coordinate axis, radians.
 struct Ellipse {
+  /// Centre.
   Real x = 0, y = 0;
+  /// Half axes.
   Real major = 0, minor = 0;
-  Real angle = 0;
+  Real angle = 0;      ///< of the major axis, radians
   bool found = false;  ///< false: fewer than five points, or points on a line or hyperbola
 
   /// minor / major in (0, 1]; 0 where none was found.
@@ -24,6 +26,7 @@ struct Ellipse {
 /// points.
 class PlaneMoments {
  public:
+  /// Adds a point.
   void add(Real x, Real y, Real weight);
 
   /// Collective. Ellipses of several sets of points in one exchange.

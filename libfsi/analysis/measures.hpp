@@ -12,6 +12,7 @@ namespace fsi::analysis {
 
 /// How sound the strain is: the exact B has det B = 1 and positive eigenvalues.
 struct Health {
+  /// Extremes of det B and of the smallest eigenvalue.
   Real det_min = 1, det_max = 1, eigenvalue_min = 1;
 };
 
@@ -27,11 +28,15 @@ void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L);
 
 /// Volume-weighted means of an error: L1 = <|e|>, L2 = <e^2>^(1/2), Linf = max |e|.
 struct Norms {
+  /// The three means.
   Real l1 = 0, l2 = 0, linf = 0;
 };
 
+///@{
+/// |e|.
 inline Real magnitude(Real e) { return std::abs(e); }
 inline Real magnitude(const Vec3& e) { return norm(e); }
+///@}
 
 /// Collective. Norms over all cells of error(c), a Real or Vec3, c an owned cell.
 template <class Error>

@@ -10,21 +10,21 @@ namespace fsi::analysis {
 /// that lies in the mesh; it says next to which point the parts of the solid belong. A checkpoint
 /// keeps all of it, and the record goes on without a jump.
 struct Tracker {
-  Vec3 home;
-  Vec3 travelled;  ///< whole periods
-  Vec3 middle;     ///< of the mesh, once started
-  bool started = false;
+  Vec3 home;             ///< a point next to the solid, in the mesh
+  Vec3 travelled;        ///< whole periods
+  Vec3 middle;           ///< of the mesh, once started
+  bool started = false;  ///< whether there was a solid yet
 };
 
 /// Volume (area in 2-D), centroid without jumps, velocity.
 struct Motion {
-  Real volume = 0;
-  Vec3 centroid;
-  Vec3 velocity;
+  Real volume = 0;  ///< of the solid
+  Vec3 centroid;    ///< of the solid, with the periods it has travelled
+  Vec3 velocity;    ///< mean of the solid
 };
 
 /// Collective. x_c = sum alpha x V / sum alpha V, [Matsumiya25] (18), u_c = sum alpha u V / sum
-/// alpha V, (22), over owned cells, each at its image nearest to the solid: the solid must be
+/// alpha V, (22), over owned cells, each at its image nearest to the solid. The solid must be
 /// shorter than half a period, and move by less than that between calls. Without any solid the
 /// centroid stays and the velocity is zero. On return `tracker` stands at the new centroid.
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,

@@ -30,8 +30,8 @@ class Sets {
 
 bool inside(Real alpha) { return alpha > 0.5; }
 
-/// Collective. Gives every cell inside the least global number of its piece: each rank knows that
-/// of its own part, and what a neighbour's part has less goes on from rank to rank until no number
+/// Collective. Gives every cell inside the least global number of its piece. Each rank knows that
+/// of its own part. What a neighbour's part has less goes on from rank to rank until no number
 /// falls any more.
 void spread(CellField<Real>& number, Sets& sets, const CellField<Real>& alpha, const Mesh& mesh) {
   bool falls = true;

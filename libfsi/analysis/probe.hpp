@@ -8,8 +8,8 @@ namespace fsi::analysis {
 
 /// A point and the cell whose centre is nearest to it; cell = -1 on every rank but its owner.
 struct Probe {
-  Vec3 offset;  ///< point - centre of the cell
-  Index cell = -1;
+  Vec3 offset;      ///< point - centre of the cell
+  Index cell = -1;  ///< on this rank; -1: on none
 };
 
 /// Collective. Ties go to the cell that comes first in the mesh file.

@@ -8,10 +8,11 @@ namespace fsi::analysis {
 
 /// Axes that turn with the ring: xi = n its axis, zeta across, eta = xi x zeta.
 struct RingFrame {
+  /// Unit vectors.
   Vec3 zeta, eta, xi;
 };
 
-/// The frame of a ring with axis n. zeta is the previous one turned the short way with the axis; at
+/// The frame of a ring with axis n. The previous zeta is turned the short way with the axis. At
 /// first (zero) it is the z axis made perpendicular to n, or the y axis where n is along z. For a
 /// ring tilted by an angle a in the x-y plane, n = (cos a, sin a, 0): zeta = z, eta = (sin a, -cos
 /// a, 0), downstream in a flow along x.

@@ -12,10 +12,12 @@ namespace fsi::analysis {
 /// points[dim k + dim - 1]. Its normal points out of the solid (right-handed; in 2-D the solid lies
 /// on the left of the segment).
 struct Surface {
-  int dim = 3;
-  std::vector<Vec3> points;
+  int dim = 3;               ///< 2 or 3
+  std::vector<Vec3> points;  ///< corners, `dim` to a facet
 
+  /// Count of facets.
   Index size() const { return static_cast<Index>(points.size()) / dim; }
+  /// The corners of facet k.
   const Vec3* facet(Index k) const { return points.data() + static_cast<std::ptrdiff_t>(dim) * k; }
   /// Area, or length in 2-D, of facet k.
   Real measure(Index k) const {

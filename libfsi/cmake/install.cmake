@@ -1,17 +1,21 @@
 # fsi::fsi for find_package(fsi) from outside, fsi.pc for pkg-config, drivers, meshes, examples and the
-# Python package that draws.
+# Python package that draws. Component programs: what runs a case; development: what builds against the
+# library.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/fsi)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(TARGETS fsi EXPORT fsiTargets)
 install(EXPORT fsiTargets NAMESPACE fsi:: DESTINATION ${config_folder})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/libfsi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN *.hpp PATTERN cmake EXCLUDE)
 if(FSI_DRIVERS)
   list(TRANSFORM FSI_DRIVERS PREPEND fsi- OUTPUT_VARIABLE programs)
-  install(TARGETS ${programs})
-  install(PROGRAMS ${PROJECT_SOURCE_DIR}/drivers/mpiexec.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME fsi-mpiexec)
+  install(TARGETS ${programs} COMPONENT programs)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/drivers/mpiexec.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME fsi-mpiexec
+          COMPONENT programs)
+  install(FILES ${FSI_MAN_PAGES} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/fsiConfig.cmake.in
@@ -38,6 +42,7 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/fsi.pc.in ${PROJECT_BINARY_DIR}/fsi.pc 
 install(FILES ${PROJECT_BINARY_DIR}/fsi.pc DESTINATION ${pc_folder})
 
 # The examples without those that measure the library from its source tree.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME programs)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/fsi)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/meshes DESTINATION ${data_folder} FILES_MATCHING PATTERN *.geo)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${data_folder} USE_SOURCE_PERMISSIONS

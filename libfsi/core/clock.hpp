@@ -13,8 +13,8 @@ namespace fsi {
 
 /// A limit on the time step and what sets it.
 struct Limit {
-  Real dt = std::numeric_limits<Real>::max();
-  std::string name = "none";
+  Real dt = std::numeric_limits<Real>::max();  ///< the longest step that it allows
+  std::string name = "none";                   ///< what sets it, one word
 };
 
 /// After a first or a rejected step the next ones grow by a tenth each.
@@ -26,6 +26,7 @@ inline Limit tighter(const Limit& a, const Limit& b) { return b.dt < a.dt ? b : 
 /// An event at every multiple of an interval of simulated time; interval <= 0: never.
 class Schedule {
  public:
+  /// interval: of simulated time; 0 or less: never.
   explicit Schedule(Real interval) : interval_(interval) {}
   /// Whether a multiple was reached since the last time this was true. At t = 0: true.
   bool due(Real t);
@@ -49,9 +50,13 @@ class Schedule {
 /// Time runs from 0 to end; the last step lands on it.
 class Clock {
  public:
+  /// t: where it begins, the time of a checkpoint in a restart.
   explicit Clock(Real end, Real t = 0) : end_(end), t_(t) {}
+  /// Whether the end is not reached yet.
   bool running() const { return t_ < end_ * (1 - 1e-14); }
+  /// The time reached.
   Real t() const { return t_; }
+  /// The end of the run.
   Real end() const { return end_; }
   /// The step from t that hits `event` (or the end) when it lies within reach of `limit`; a rest of
   /// less than a step is split in two so that no tiny step is left.
@@ -66,6 +71,7 @@ class Clock {
 /// Seconds since construction.
 class Stopwatch {
  public:
+  /// Seconds since construction.
   Real seconds() const {
     return std::chrono::duration<Real>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -77,6 +83,7 @@ class Stopwatch {
 /// When a run will be through, by how simulated time came on lately, not by the last step alone.
 class Forecast {
  public:
+  /// t: the simulated time at the start.
   explicit Forecast(Real t = 0) : t_(t) {}
   /// Seconds from now to `end`, at simulated time t after `wall` seconds: by the mean of the speed
   /// since the last call and what was taken then; infinite where time does not come on.

@@ -10,8 +10,8 @@ namespace fsi {
 /// t . vector[i] = value[i] vector[i], value[0] <= value[1] <= value[2]; the vectors are a
 /// right-handed orthonormal frame.
 struct Eigen {
-  std::array<Real, 3> value{};
-  std::array<Vec3, 3> vector{};
+  std::array<Real, 3> value{};   ///< in ascending order
+  std::array<Vec3, 3> vector{};  ///< of unit length, beside them
 };
 
 /// Cyclic Jacobi rotations [GolubVanLoan13] 8.5: residual and orthogonality to a few units of

@@ -20,7 +20,9 @@ enum class ErrorKind : int {
 /// The one exception type: a sentence for the user and its kind.
 class Error : public std::runtime_error {
  public:
+  /// what: a whole sentence, as the user reads it.
   Error(ErrorKind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  /// Its kind, which is the exit code of the program.
   ErrorKind kind() const noexcept { return kind_; }
 
  private:

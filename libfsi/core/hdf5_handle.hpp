@@ -8,13 +8,16 @@ namespace fsi {
 /// An open HDF5 thing, closed at the end of its scope.
 class Hdf5Handle {
  public:
+  /// close: what frees the id.
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  /// The id itself.
   operator hid_t() const { return id_; }
+  /// Whether it is a valid id.
   bool ok() const { return id_ >= 0; }
 
  private:

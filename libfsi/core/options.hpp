@@ -13,11 +13,11 @@ namespace fsi {
 
 /// What -help prints and what a value must satisfy.
 struct Spec {
-  std::string help{};
+  std::string help{};  ///< what -help prints of the option
   std::string unit{};  ///< e.g. "mass / (length time)"; "" where none
-  Real min = -std::numeric_limits<Real>::infinity();
-  Real max = std::numeric_limits<Real>::infinity();
-  bool positive = false;  ///< strictly > 0
+  Real min = -std::numeric_limits<Real>::infinity();  ///< least valid value
+  Real max = std::numeric_limits<Real>::infinity();   ///< largest valid value
+  bool positive = false;                              ///< strictly > 0
 };
 
 /// Reads options by name (without the dash) from PETSc's database: command line, YAML file,
@@ -31,16 +31,22 @@ class Options {
 
   /// fallback: not a number where the user must give the option.
   Real real(const std::string& name, Real fallback, const Spec& spec);
+  /// A whole number.
   int integer(const std::string& name, int fallback, const Spec& spec);
+  /// true or false.
   bool flag(const std::string& name, bool fallback, const std::string& help);
+  /// A word.
   std::string text(const std::string& name, const std::string& fallback, const std::string& help);
   /// A file's name, or any other word: where no such file is in the working directory but one
   /// beside the case file, that one. Recorded so that run.yaml finds it too.
   std::string text_or_file(const std::string& name, const std::string& fallback,
                            const std::string& help);
+  /// One of the words `valid`.
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& valid, const std::string& help);
+  /// Three numbers, x,y,z.
   Vec3 vec3(const std::string& name, const Vec3& fallback, const Spec& spec);
+  /// Words with commas between them; none where the option is not given.
   std::vector<std::string> list(const std::string& name, const std::string& help);
   /// Whether the user gave this option.
   bool given(const std::string& name) const;
@@ -52,6 +58,7 @@ class Options {
   /// Unknown options of ours and of PETSc: Error{input} naming each with its nearest valid name.
   /// Call before the first step for names nobody can read, and after it for solver options.
   void check_unknown() const;
+  /// Options that nothing has read, but for the general ones of PETSc: Error{input}.
   void check_unused() const;
   /// Names and values of the options read, as resolved; without those that are empty.
   std::map<std::string, std::string> values() const;

@@ -13,11 +13,16 @@ namespace fsi {
 
 /// The communicator of the run (PETSC_COMM_WORLD).
 MPI_Comm comm();
+/// Number of this rank, from 0.
 int rank();
+/// Count of ranks.
 int ranks();
 
+/// The least of the ranks' values.
 Real global_min(Real value);
+/// The largest of the ranks' values.
 Real global_max(Real value);
+/// The sum of the ranks' values.
 GlobalIndex global_sum(GlobalIndex value);
 /// True where it holds on every rank.
 bool all_of_ranks(bool holds);

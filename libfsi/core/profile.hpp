@@ -22,6 +22,7 @@ class Profile {
   /// Time between construction and destruction counts for the call and its phase.
   class Call {
    public:
+    /// number: of the call, from add().
     Call(Profile& profile, int number);
     ~Call();
     Call(const Call&) = delete;

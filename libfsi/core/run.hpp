@@ -18,9 +18,9 @@ int run(int argc, char** argv, const std::function<RunStatus()>& body);
 
 /// One of the things a program of several commands does: PROGRAM NAME OPERANDS... [options].
 struct Command {
-  std::string name;
+  std::string name;      ///< the word that chooses it
   std::string operands;  ///< what they are, a word each: "in.msh out.h5"
-  std::string purpose;
+  std::string purpose;   ///< what it does, for -help
   std::function<RunStatus(const std::vector<std::string>&)> body;  ///< takes the operands
 };
 

@@ -6,39 +6,56 @@
 
 namespace fsi {
 
+/// The floating-point number of all fields.
 using Real = double;
 using Index = std::int32_t;        ///< local cell, face or point number
 using GlobalIndex = std::int64_t;  ///< number that is the same on any count of ranks
 
 /// A vector (x, y, z); z = 0 in a 2-D run.
 struct Vec3 {
-  Real x = 0, y = 0, z = 0;
+  Real x = 0, y = 0, z = 0;  ///< components
 
+  ///@{
+  /// Component i: 0 is x, 1 is y, 2 is z.
   constexpr Real& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   constexpr Real operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  ///@}
+  ///@{
+  /// Component by component.
   constexpr Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
   constexpr Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
   constexpr Vec3& operator*=(Real s) { return x *= s, y *= s, z *= s, *this; }
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+  ///@}
 };
 
+///@{
+/// Component by component.
 constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
 constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
 constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
 constexpr Vec3 operator*(Real s, Vec3 a) { return a *= s; }
 constexpr Vec3 operator*(Vec3 a, Real s) { return a *= s; }
 constexpr Vec3 operator/(Vec3 a, Real s) { return a *= 1 / s; }
+///@}
+/// a_i b_i.
 constexpr Real dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// The vector product a x b.
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// |a|^2.
 constexpr Real norm2(const Vec3& a) { return dot(a, a); }
+/// |a|.
 inline Real norm(const Vec3& a) { return std::sqrt(norm2(a)); }
 
 /// A full tensor, row by row: `L.xy` is row x, column y; for the velocity gradient L.xy = du_x/dy.
 struct Tensor {
+  /// Components, row then column.
   Real xx = 0, xy = 0, xz = 0, yx = 0, yy = 0, yz = 0, zx = 0, zy = 0, zz = 0;
 
+  ///@{
+  /// Component by component.
   constexpr Tensor& operator+=(const Tensor& b) {
     xx += b.xx, xy += b.xy, xz += b.xz, yx += b.yx, yy += b.yy, yz += b.yz;
     zx += b.zx, zy += b.zy, zz += b.zz;
@@ -49,22 +66,29 @@ struct Tensor {
     return *this;
   }
   friend constexpr bool operator==(const Tensor&, const Tensor&) = default;
+  ///@}
 };
 
+///@{
+/// Component by component.
 constexpr Tensor operator+(Tensor a, const Tensor& b) { return a += b; }
 constexpr Tensor operator*(Real s, Tensor a) { return a *= s; }
+///@}
 /// (a b)_ij = a_i b_j.
 constexpr Tensor outer(const Vec3& a, const Vec3& b) {
   return {a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y,
           a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z};
 }
+/// (t a)_i = t_ij a_j.
 constexpr Vec3 dot(const Tensor& t, const Vec3& a) {
   return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.yx * a.x + t.yy * a.y + t.yz * a.z,
           t.zx * a.x + t.zy * a.y + t.zz * a.z};
 }
+/// t_ji.
 constexpr Tensor transpose(const Tensor& t) {
   return {t.xx, t.yx, t.zx, t.xy, t.yy, t.zy, t.xz, t.yz, t.zz};
 }
+/// t_ii.
 constexpr Real trace(const Tensor& t) { return t.xx + t.yy + t.zz; }
 /// (a b)_ij = a_ik b_kj.
 constexpr Tensor dot(const Tensor& a, const Tensor& b) {
@@ -72,6 +96,7 @@ constexpr Tensor dot(const Tensor& a, const Tensor& b) {
              z = dot(a, Vec3{b.xz, b.yz, b.zz});  // columns
   return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
 }
+/// The determinant.
 constexpr Real det(const Tensor& m) {
   return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
          m.xz * (m.yx * m.zy - m.yy * m.zx);
@@ -88,8 +113,10 @@ constexpr Tensor inverse(const Tensor& m) {
 
 /// A symmetric tensor, upper triangle.
 struct SymTensor {
-  Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  ///< components of the upper triangle
 
+  ///@{
+  /// Component by component.
   constexpr SymTensor& operator+=(const SymTensor& b) {
     xx += b.xx, xy += b.xy, xz += b.xz, yy += b.yy, yz += b.yz, zz += b.zz;
     return *this;
@@ -103,11 +130,16 @@ struct SymTensor {
     return *this;
   }
   friend constexpr bool operator==(const SymTensor&, const SymTensor&) = default;
+  ///@}
 };
 
+///@{
+/// Component by component.
 constexpr SymTensor operator+(SymTensor a, const SymTensor& b) { return a += b; }
 constexpr SymTensor operator-(SymTensor a, const SymTensor& b) { return a -= b; }
 constexpr SymTensor operator*(Real s, SymTensor a) { return a *= s; }
+///@}
+/// (t a)_i = t_ij a_j.
 constexpr Vec3 dot(const SymTensor& t, const Vec3& a) {
   return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.xy * a.x + t.yy * a.y + t.yz * a.z,
           t.xz * a.x + t.yz * a.y + t.zz * a.z};
@@ -127,7 +159,9 @@ constexpr SymTensor both_ways(const Vec3& a, const Vec3& b) {
   return {2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
           2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
 }
+/// t_ii.
 constexpr Real trace(const SymTensor& t) { return t.xx + t.yy + t.zz; }
+/// The determinant.
 constexpr Real det(const SymTensor& t) {
   return t.xx * (t.yy * t.zz - t.yz * t.yz) - t.xy * (t.xy * t.zz - t.yz * t.xz) +
          t.xz * (t.xy * t.yz - t.yy * t.xz);

@@ -18,6 +18,7 @@ std::vector<Index> faces_between_ranks(const Mesh& mesh);
 /// step from lists that keep their memory.
 class Band {
  public:
+  /// An empty band; mesh must outlive it.
   explicit Band(const Mesh& mesh);
 
   /// Collective. The set {c : q[c] >= threshold}. q: owned and halo.

@@ -17,21 +17,24 @@ namespace fsi {
 /// A wall at rest or sliding, in its own plane or along a cylinder: u = velocity, which has no part
 /// through a face.
 struct Wall {
-  Vec3 velocity;
+  Vec3 velocity;  ///< of the wall
 };
 /// A plane without friction, or a plane of symmetry: u.n = 0, no shear.
 struct Slip {};
 /// Prescribed velocity u(x, t).
 struct FixedVelocity {
-  std::function<Vec3(const Vec3& x, Real t)> u;
+  std::function<Vec3(const Vec3& x, Real t)> u;  ///< velocity at x and t
 };
 /// A number that may depend on time.
 class OfTime {
  public:
+  /// A constant.
   OfTime(Real constant = 0) : at_([constant](Real) { return constant; }) {}
   template <class Function>
+  /// Any function of time.
   requires std::is_invocable_r_v<Real, Function, Real> OfTime(Function function)
       : at_(std::move(function)) {}
+  /// Its value at time t.
   Real operator()(Real t) const { return at_(t); }
 
  private:
@@ -39,8 +42,8 @@ class OfTime {
 };
 /// A flow rate into the domain (negative: out of it), spread over the patch.
 struct FlowRate {
-  OfTime rate;
-  InflowProfile profile = InflowProfile::parabola;
+  OfTime rate;                                      ///< volume per time
+  InflowProfile profile = InflowProfile::parabola;  ///< how the flow is spread over the patch
   std::vector<Vec3> shape{};  ///< [faces] velocity at rate 1; set by `resolve`
 };
 /// What lies beyond an opening: a resistance, and behind it another one beside a capacitance.
@@ -49,6 +52,7 @@ struct Load {
   Real distal = 0;       ///< R_d
   Real capacitance = 0;  ///< C, volume per pressure; 0: none
   Real stored = 0;       ///< pressure p_c of the capacitance at t = 0
+  /// Whether there is a load at all.
   bool any() const { return proximal != 0 || distal != 0; }
 };
 /// Inlet or outlet at given pressure; velocity with zero gradient along the normal. With a load the
@@ -56,18 +60,19 @@ struct Load {
 ///   C dp_c/dt = Q - p_c / R_d,
 /// the windkessel of three elements.
 struct Opening {
-  OfTime pressure;
-  Load load{};
+  OfTime pressure;  ///< beyond the load, where there is one
+  Load load{};      ///< between the opening and that pressure
 };
 
+/// What holds on a patch.
 using Condition = std::variant<Wall, Slip, FixedVelocity, FlowRate, Opening>;
 /// Patch name -> condition.
 using Conditions = std::map<std::string, Condition>;
 
 /// The conditions of a mesh's patches, in their order.
-/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, a wall
-/// moves through itself, a load is negative or has a capacitance without a resistance beside it,
-/// flow rates on all patches do not add up to zero at t = 0.
+/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, or a
+/// wall moves through itself. So it is where a load is negative or has a capacitance without a
+/// resistance beside it, and where flow rates on all patches do not add up to zero at t = 0.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.
@@ -78,6 +83,7 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
 bool fixes_velocity(const Condition& condition);
 /// Whether it prescribes a flow through the patch: FixedVelocity or FlowRate.
 bool prescribes_flow(const Condition& condition);
+/// Whether the condition gives the pressure: an Opening.
 bool fixes_pressure(const Condition& condition);
 
 }  // namespace fsi

@@ -10,13 +10,14 @@
 namespace fsi::flow {
 
 /// The points of the line are the centres of the surfaces of equal potential q, Lap q = 0, q = 1 at
-/// the first patch, 0 at the second, no flux through all others; cells count by V |grad q|^2, so
+/// the first patch, 0 at the second, no flux through all others. Cells count by V |grad q|^2, so
 /// that dead ends, where the potential stands still, do not.
 class CentreLine {
  public:
   /// Collective. Errors: Error{input} where the mesh has no such patches.
   CentreLine(const Mesh& mesh, const std::string& from, const std::string& to);
 
+  /// Its arc length.
   Real length() const { return arc_.back(); }
   /// The point at s along the line, and its direction there (of norm 1).
   std::pair<Vec3, Vec3> at(Real s) const;

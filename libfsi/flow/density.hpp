@@ -9,7 +9,7 @@
 namespace fsi::flow {
 
 /// The inertia of faces and cells. Where all that moves has one acceleration a, the pressure rises
-/// by rho_f a . d over a face, and what the cells make of it is their mean of rho_f a: they move
+/// by rho_f a . d over a face. What the cells make of it is their mean of rho_f a. They move
 /// together with the faces if that mean is also their inertia, component by component,
 ///
 ///   rho_f = rho_0 + sum_i (rho_i - rho_0) alpha_f,i
@@ -31,8 +31,11 @@ class Density {
   /// Collective. Sets D, owned and halo, from what was added.
   void finish();
 
+  /// Density of the fluid.
   Real rho_0() const { return rho_0_; }
+  /// rho_f.
   const FaceField<Real>& of_face() const { return of_face_; }
+  /// rho_c.
   const CellField<Real>& of_cell() const { return of_cell_; }
   /// D.
   const CellField<Vec3>& inertia() const { return inertia_; }

@@ -8,11 +8,13 @@ namespace fsi::flow {
 
 /// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
 /// divergence-free, so adding a multiple of it keeps div u = 0:
-///   c = (U - <phi>) / <phi_1>,   phi += c phi_1,   u += c u_1,   S += rho c / dt,
-/// where <phi> = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a divergence-free
-/// flux: the same through every section, so nothing happens when a particle crosses the seam.
+///   c = (U - mean(phi)) / mean(phi_1),   phi += c phi_1,   u += c u_1,   S += rho c / dt,
+/// where mean(phi) = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a
+/// divergence-free flux: the same through every section, so nothing happens when a particle crosses
+/// the seam.
 class Forcing {
  public:
+  /// Collective. Projects a uniform force along the axis once.
   Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity);
 
   /// Collective. The response of a density: a uniform force accelerates a solid by less or more.
@@ -20,11 +22,12 @@ class Forcing {
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
   void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt);
-  /// <phi>; collective.
+  /// mean(phi); collective.
   Real mean(const FaceField<Real>& phi) const;
 
   /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.
   Real gradient = 0;
+  /// Direction of the mean velocity.
   Vec3 axis() const { return axis_; }
 
  private:

@@ -26,15 +26,15 @@ std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real a
 struct MomentumTerms {
   const BoundaryField<Vec3>& u_b;      ///< at t^n
   const BoundaryField<Vec3>& u_b_new;  ///< at t^n+1
-  const CellField<Vec3>& grad_p;
-  const CellField<Tensor>& L;      ///< read where the viscosity varies or convection is upwind
-  const std::vector<Tensor>& L_f;  ///< at irregular faces
-  const FaceField<Real>& phi;
-  const FaceField<Real>& mu;
-  const FaceField<Real>& kappa;  ///< what is implicit besides the viscosity
-  bool mu_varies = false;        ///< in time and space
-  bool stiff = false;            ///< kappa does; else it is zero for good
-  const CellField<Vec3>& force;  ///< elastic force per volume
+  const CellField<Vec3>& grad_p;       ///< at t^n
+  const CellField<Tensor>& L;          ///< read where the viscosity varies or convection is upwind
+  const std::vector<Tensor>& L_f;      ///< at irregular faces
+  const FaceField<Real>& phi;          ///< volume flux at t^n
+  const FaceField<Real>& mu;           ///< viscosity at the faces
+  const FaceField<Real>& kappa;        ///< what is implicit besides the viscosity
+  bool mu_varies = false;              ///< in time and space
+  bool stiff = false;                  ///< kappa does; else it is zero for good
+  const CellField<Vec3>& force;        ///< elastic force per volume
   /// Density of the cells for each component, owned and halo; none: that of the fluid everywhere.
   const CellField<Vec3>* rho = nullptr;
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
@@ -57,6 +57,7 @@ struct MomentumTerms {
 /// leaves, without that term, and at all faces where mu_s / mu_f > 2.
 class Momentum {
  public:
+  /// Collective. rho, mu_0: of the fluid; mesh, weights and conditions must outlive it.
   Momentum(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
            Real rho, Real mu_0, Convection scheme = Convection::linear);
 
@@ -68,10 +69,11 @@ class Momentum {
     CellField<Vec3> convection, convection_before;  ///< of the last step and the one before
     CellField<Vec3> rest;                           ///< of the last step
   };
+  /// The same, to list and to restore.
   History& history() { return history_; }
   Real dt_old = 0, dt_before = 0;  ///< lengths of those steps, 0: none yet
-  std::int64_t steps_taken = 0;
-  Real theta = 0.5;  ///< after the first steps, at least
+  std::int64_t steps_taken = 0;    ///< since t = 0
+  Real theta = 0.5;                ///< after the first steps, at least
   /// The least theta of a step of dt after the first ones: more than `theta` after
   /// `bound_explicit_viscosity` where viscosity smooths a cell within the step, as the transposed
   /// term would make it unstable. From 1/2 where l = mu dt / rho max_c sum g / V is below 2 it
@@ -85,13 +87,14 @@ class Momentum {
   /// The velocity before the last step, part of a checkpoint, and at the boundary, to be set from
   /// it before `predict`.
   struct Old {
-    CellField<Vec3> u;
-    BoundaryField<Vec3> u_b;
+    CellField<Vec3> u;        ///< in the cells
+    BoundaryField<Vec3> u_b;  ///< at the boundary
   };
   /// Second order in time from now on where theta = 1 at all faces; before the first step.
   void hold_old();
   /// Empty on regular meshes without hold_old.
   std::optional<Old>& old() { return old_; }
+  /// What the viscous term makes of the conditions.
   const ViscousBoundary& boundary() const { return boundary_; }
   /// Whether L is read at all.
   bool reads_L() const {

@@ -14,7 +14,7 @@ namespace fsi::flow {
 /// The openings of a mesh.
 ///
 /// A given static pressure leaves the flow into the domain without a bound on the energy it brings
-/// along: what flows in faster brings more, and on tetrahedra single faces run away at Reynolds
+/// along. What flows in faster brings more, and on tetrahedra single faces run away at Reynolds
 /// numbers of some hundred. So the total pressure is given for what departs from a smooth profile,
 ///
 ///   p_b = p + rho / 2 (s U^2 - u_n^2)     where u_n = u_P . n < 0,
@@ -43,23 +43,27 @@ class Openings {
 
   /// An opening.
   struct One {
-    Patch patch;
-    OfTime given;
-    Load load;
+    Patch patch;   ///< its faces
+    OfTime given;  ///< the pressure that is given
+    Load load;     ///< between it and the opening
     // part of a checkpoint:
     Real pressure = 0;            ///< in the middle of the last step
     Real stored = 0;              ///< of the load's capacitance, at the end of the last step
     Real flow = 0;                ///< out of a loaded opening, at the end of the last step
     std::int64_t flow_known = 0;  ///< whether there was one
     Real trend = 0;               ///< change of flow in the last step, per time
-    Vec3 normal{};
+    Vec3 normal{};                ///< outward, of the patch as a whole
     std::vector<std::vector<Real>> basis{};  ///< [functions][faces], orthonormal by area
     std::vector<Sum> sums{};                 ///< scratch
     std::vector<Real> totals{};              ///< scratch
+    /// Count of faces on this rank.
     Index faces() const { return patch.end - patch.begin; }
   };
+  ///@{
+  /// All openings, in the order of the patches.
   std::vector<One>& all() { return openings_; }
   const std::vector<One>& all() const { return openings_; }
+  ///@}
 
  private:
   void set_basis(One& opening) const;

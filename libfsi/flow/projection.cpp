@@ -244,7 +244,8 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
 // Lap q) is left, with Lap q = div u*                                  [Brown01], [Timmermans96]
 //
 // A p that differs from all neighbours' is answered by the predicted flux K = sum_f g |d|^2 / (2 V)
-// times as much as chi mu_c div u* makes of it, dim on quads and hexes: chi K must be less than 2.
+// times as much as chi mu_c div u* makes of it. K is dim on quads and hexes, and chi K must be less
+// than 2.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
                           const FaceField<Real>& kappa, const FaceField<Real>& theta,
                           const FaceWeights& weights, const Mesh& mesh) {

@@ -16,17 +16,18 @@ namespace fsi::flow {
 
 /// What enters the face flux besides u*.
 struct FluxTerms {
-  const std::vector<Tensor>& L_f;  ///< of u*, at irregular faces
-  const CellField<Real>& p;
-  const CellField<Vec3>& grad_p;
+  const std::vector<Tensor>& L_f;           ///< of u*, at irregular faces
+  const CellField<Real>& p;                 ///< pressure at the cells
+  const CellField<Vec3>& grad_p;            ///< its averaged gradient
   const std::vector<Vec3>& grad_p_f;        ///< of p at irregular faces
   const BoundaryField<Real>& p_b;           ///< read on openings only
   const FaceField<Real>& rhie_chow_source;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f .
                                             ///< d; 0 outside the solid
-  const FaceField<Real>& mu;
-  const FaceField<Real>& theta;
+  const FaceField<Real>& mu;                ///< viscosity at the faces
+  const FaceField<Real>& theta;             ///< implicit share of the viscous term
   const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
   const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
+  /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
   const Density* density = nullptr;        ///< none: rho everywhere
   const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
@@ -51,7 +52,7 @@ struct FluxTerms {
 /// |u_f|, gradually from none of c_f to 1e-7 of the stress: the jump at the surface of a solid
 /// would else leak through it with a flux in proportion to dt. With a density rho is that of the
 /// face, and what the cells make of all forces is taken out for what the face makes of them
-/// (flow/density.hpp): where everything moves with one acceleration U(u*) is right already, and
+/// (flow/density.hpp). Where everything moves with one acceleration U(u*) is right already, and
 /// this with the brace is zero. Boundary: prescribed velocity, or
 /// the same with p_b at openings. On return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,

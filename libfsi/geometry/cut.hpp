@@ -17,6 +17,7 @@ using Levels = std::array<Real, n>;
 inline Real part_below(const Levels<2>& q, Real s) {
   return s <= q[0] ? 0 : s >= q[1] ? 1 : (s - q[0]) / (q[1] - q[0]);
 }
+/// The same on a triangle.
 inline Real part_below(const Levels<3>& q, Real s) {
   // s < q1: (s - q0)^2 / ((q1 - q0) (q2 - q0)); beyond: 1 - (q2 - s)^2 / ((q2 - q0) (q2 - q1))
   if (s <= q[0]) return 0;
@@ -26,21 +27,22 @@ inline Real part_below(const Levels<3>& q, Real s) {
 }
 
 /// Mean of part_below over the levels between s0 and s1 (any order; the value at s0 where they are
-/// equal): the share of a time step for which a face lies behind a plane that moves evenly.
+/// equal). It is the share of a time step for which a face lies behind a plane that moves evenly.
 /// Exact, piece by piece between the passing of corners, without cancellation.
 Real mean_part_below(const Levels<2>& q, Real s0, Real s1);
+/// The same on a triangle.
 Real mean_part_below(const Levels<3>& q, Real s0, Real s1);
 
 /// The plane n . x = s, n of unit length; below it n . x < s.
 struct Plane {
-  Vec3 n;
-  Real s = 0;
+  Vec3 n;      ///< unit normal
+  Real s = 0;  ///< its distance from the origin along n
 };
 
 /// Where a plane cuts a cell: area (length in 2-D) and centroid.
 struct Cut {
-  Real area = 0;
-  Vec3 centre;
+  Real area = 0;  ///< length in 2-D
+  Vec3 centre;    ///< its centroid
 };
 
 /// A polygon (2-D, in the plane z = 0) or polyhedron, given by its boundary: segments or triangles
@@ -50,17 +52,23 @@ struct Cut {
 /// relative to the cell.
 class Polytope {
  public:
+  /// Room.
   static constexpr int max_points = 96, max_facets = 96;
 
+  /// Empty.
   explicit Polytope(int dim = 3) : dim_(dim) {}
+  /// Empties it.
   void clear() { n_points_ = n_facets_ = 0; }
   /// A face with its corners right-handed about the outward normal (2-D: ends of an edge, the cell
   /// on its left); reversed: about the inward one.
   void add_face(std::span<const Vec3> corners, bool reversed);
 
+  /// 2 or 3.
   int dim() const { return dim_; }
+  /// Its corners.
   std::span<const Vec3> points() const { return {points_.data(), std::size_t(n_points_)}; }
-  using Facet = std::array<std::uint8_t, 3>;  // corner numbers; the first two in 2-D
+  using Facet = std::array<std::uint8_t, 3>;  ///< corner numbers; the first two in 2-D
+  /// Its facets.
   std::span<const Facet> facets() const { return {facets_.data(), std::size_t(n_facets_)}; }
 
  private:

@@ -7,9 +7,9 @@ namespace fsi::geometry {
 
 /// Integrals of 1, x and x x over a body (2-D: an area), x from the origin of the coordinates.
 struct Moments {
-  Real volume = 0;
-  Vec3 first;
-  SymTensor second;
+  Real volume = 0;   ///< integral of 1
+  Vec3 first;        ///< integral of x
+  SymTensor second;  ///< integral of x x
 };
 
 /// The same body with the origin of the coordinates moved to -shift: every x becomes x + shift.

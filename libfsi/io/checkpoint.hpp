@@ -19,13 +19,15 @@ class Hdf5Image;
 /// and to read. It holds as long as the fields keep their storage: a Field listed is never swapped.
 class Snapshot {
  public:
+  /// A number or word to be kept.
   using Scalar = std::variant<Real*, std::int64_t*, std::string*>;
+  /// The storage of a field.
   struct Values {
-    std::string name;
-    Location on;
-    int width;
-    Real* values;
-    std::string instead;
+    std::string name;     ///< in the file
+    Location on;          ///< cells, faces or boundary
+    int width;            ///< Reals per item
+    Real* values;         ///< where they live
+    std::string instead;  ///< as `add` has it
   };
 
   /// identity: what else than the mesh must be the same to go on from a checkpoint (the driver, the
@@ -37,10 +39,14 @@ class Snapshot {
   void add(const std::string& name, Field<T, on>& field, const std::string& instead = "") {
     fields_.push_back({name, on, components<T>, reinterpret_cast<Real*>(field.data()), instead});
   }
+  /// Adds a number or word.
   void add(const std::string& name, Scalar scalar) { scalars_.emplace_back(name, scalar); }
 
+  /// As it was made with.
   const std::string& identity() const { return identity_; }
+  /// The fields, in the order added.
   const std::vector<Values>& fields() const { return fields_; }
+  /// Numbers and words, in the order added.
   const std::vector<std::pair<std::string, Scalar>>& scalars() const { return scalars_; }
 
  private:

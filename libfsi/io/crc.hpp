@@ -10,6 +10,7 @@ namespace fsi::io {
 
 namespace detail {
 
+/// The remainders of all bytes.
 constexpr std::array<std::uint64_t, 256> crc_table() {
   constexpr std::uint64_t polynomial = 0xc96c5795d7870f42ULL;
   std::array<std::uint64_t, 256> table{};

@@ -16,9 +16,9 @@ class Hdf5Image;
 
 /// Values of the owned cells under a name, `width` Reals each: 1, 3 (vector), 6 (SymTensor) or 9.
 struct NamedField {
-  std::string name;
-  int width;
-  const Real* values;
+  std::string name;    ///< in the file
+  int width;           ///< Reals per cell
+  const Real* values;  ///< of the owned cells
 };
 
 /// A cell field under its name.

@@ -8,6 +8,7 @@
 
 namespace fsi::io {
 
+/// A stretch of bytes.
 using Bytes = std::span<const std::byte>;
 
 /// Whether a file must survive a crash of the machine, or only of the program.

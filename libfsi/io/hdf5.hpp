@@ -25,10 +25,13 @@ class Hdf5Image {
   Hdf5Image(const Hdf5Image&) = delete;
   Hdf5Image& operator=(const Hdf5Image&) = delete;
 
+  /// A group.
   void group(const std::string& path);
   /// A dataset of values.size() / width rows; width 1 makes it one-dimensional.
   void dataset(const std::string& path, std::span<const Real> values, int width = 1);
+  /// A one-dimensional dataset of whole numbers.
   void dataset(const std::string& path, std::span<const std::int64_t> values);
+  /// A one-dimensional dataset of bytes.
   void dataset(const std::string& path, std::span<const std::uint8_t> values);
   /// Room for a dataset of T (Real, std::int64_t, std::uint8_t) that others write: rows, `width` to
   /// a row. Returns where in the file it begins, in bytes.
@@ -36,17 +39,22 @@ class Hdf5Image {
   std::uint64_t room(const std::string& path, std::uint64_t rows, int width = 1);
   /// An attribute of the group or dataset `object`; one value is a scalar.
   void attribute(const std::string& object, const std::string& name, Real value);
+  /// The same of whole numbers.
   void attribute(const std::string& object, const std::string& name,
                  std::span<const std::int64_t> values);
+  /// The same of a text.
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   /// `path` here stands for the same path in the file named (relative to this one).
   void link(const std::string& path, const std::string& file);
 
+  /// Whether all went well so far.
   bool ok() const { return ok_; }
   /// Ends the making. Whether all went well; then size() and read() tell of the file, rooms left
   /// out.
   bool close();
+  /// Bytes of the file, once closed.
   std::uint64_t size() const { return size_; }
+  /// Its bytes from `offset` on; whether they could be read.
   bool read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
  private:
@@ -68,11 +76,13 @@ class Hdf5Image {
 /// A file opened for reading.
 class Hdf5File {
  public:
+  /// Opens the file; ok() tells whether that went well.
   explicit Hdf5File(const std::string& path);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
+  /// Whether the file is open.
   bool ok() const { return file_ >= 0; }
   /// Whether there is such a dataset of exactly that many Reals; then it is read.
   bool dataset(const std::string& path, std::span<Real> values) const;
@@ -81,7 +91,9 @@ class Hdf5File {
                std::span<Real> values, int width) const;
   /// Whether there is such a scalar attribute; then it is read.
   bool attribute(const std::string& object, const std::string& name, Real& value) const;
+  /// The same of a whole number.
   bool attribute(const std::string& object, const std::string& name, std::int64_t& value) const;
+  /// The same of a text.
   bool attribute(const std::string& object, const std::string& name, std::string& value) const;
 
  private:

@@ -21,14 +21,19 @@ class Layout {
   /// Collective.
   Layout(const Mesh& mesh, Location on);
   ~Layout();
+  ///@{
+  /// Moves the lists.
   Layout(Layout&&) noexcept;
   Layout& operator=(Layout&&) noexcept;
+  ///@}
   Layout(const Layout&) = delete;
   Layout& operator=(const Layout&) = delete;
 
   /// Items of the whole mesh, and this rank's stretch of them.
   GlobalIndex size() const { return size_; }
+  /// The first item of this rank's stretch.
   GlobalIndex first() const { return first_; }
+  /// Count of items of this rank's stretch.
   GlobalIndex mine() const { return mine_; }
 
   /// Collective. values: the rank's items, `width` Reals each (cells: owned ones). Every rank gets

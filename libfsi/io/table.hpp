@@ -19,6 +19,7 @@ class Table {
   /// time) is not beyond it. Errors: Error{io} when it cannot be written; Error{input} when a file
   /// to be resumed has other columns.
   Table(const std::string& file, std::vector<std::string> columns);
+  /// The same in a restart at time resume_at.
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 
   /// Collective; rank 0's values are written. Errors: Error{numerics} naming the column of a value

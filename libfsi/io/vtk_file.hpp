@@ -20,7 +20,7 @@ void agree(const std::string& file, const std::string& reason);
 
 /// A figure of each of the cells that are written.
 struct CellFigure {
-  std::string name;
+  std::string name;              ///< in the file
   std::span<const Real> values;  ///< [owned cells]
 };
 

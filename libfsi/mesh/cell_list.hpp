@@ -17,8 +17,8 @@ using Offset = std::array<std::int8_t, 3>;
 /// Cells with all that a Mesh is built from: before the division a stretch of the file (see
 /// distribute), afterwards a rank's owned cells and its halo, each sorted by global_id.
 struct CellList {
-  int dim = 3;
-  std::vector<Vec3> points;
+  int dim = 3;                  ///< 2 or 3
+  std::vector<Vec3> points;     ///< places of the points
   std::vector<Index> vertex;    ///< [points] in [0, points); the same for points joined by a period
   std::vector<Offset> offset;   ///< [points] x - x(vertex) = sum_k offset[k] periods[k]
   std::vector<Index> point_id;  ///< [points] number in the file; set by the division
@@ -27,24 +27,27 @@ struct CellList {
   Csr corners;                   ///< [cells] points, ordered as Shape has them
   std::vector<std::array<std::int8_t, max_faces>> face_patch;  ///< [cells] -1: internal
   std::vector<GlobalIndex> global_id;                          ///< [cells]
-  Index n_owned = 0;
-  std::vector<int> halo_owner;         ///< [cells - n_owned] rank
+  Index n_owned = 0;                                           ///< count of owned cells
+  std::vector<int> halo_owner;                                 ///< [cells - n_owned] rank
   std::vector<Index> halo_owner_cell;  ///< [cells - n_owned] cell number there
   // the same on every rank
-  std::vector<Vec3> periods;
-  std::vector<std::string> patches;
-  GlobalIndex n_global = 0;
-  std::uint64_t hash = 0;
+  std::vector<Vec3> periods;         ///< translations that join patches
+  std::vector<std::string> patches;  ///< names of the patches
+  GlobalIndex n_global = 0;          ///< cells of all ranks
+  std::uint64_t hash = 0;            ///< of the mesh as read
 
+  /// Count of cells, halo included.
   Index n_cells() const { return static_cast<Index>(types.size()); }
 };
 
 /// A face as one of its cells sees it: half = max_faces * cell + number of the face in the cell.
 struct Half {
-  Index cell;
-  int face;
+  Index cell;  ///< local number
+  int face;    ///< its number in the cell
+  /// Takes it apart.
   explicit Half(Index half) : cell(half / max_faces), face(half % max_faces) {}
 };
+/// Puts it together.
 inline Index half_of(Index cell, int face) { return max_faces * cell + face; }
 
 /// The vertices of a face in ascending order; -1 fills what a face does not have, at the front.
@@ -53,6 +56,7 @@ std::array<Index, max_face_corners> face_key(const CellList& list, Half half);
 /// Each half's other half: the face of another cell with the same vertices, or no_mate; many_mates
 /// where more than two cells share them. Halves a cell does not have are no_mate.
 inline constexpr Index no_mate = -1, many_mates = -2;
+/// As described above.
 std::vector<Index> match_faces(const CellList& list);
 
 /// Cells that touch each vertex: rows [points] of cells, ascending.

@@ -22,6 +22,7 @@ constexpr CellType type_of(int dim, std::size_t corners) {
 /// What a sentence calls a cell of each type.
 inline constexpr std::array<const char*, 6> names_of_cells{"triangle", "quad",  "tet",
                                                            "hex",      "prism", "pyramid"};
+/// Its name in words.
 constexpr const char* name_of(CellType type) {
   return names_of_cells[static_cast<std::size_t>(type)];
 }

@@ -16,11 +16,12 @@ inline constexpr int max_corners = 8, max_faces = 6, max_face_corners = 4;
 /// The corners of each face, right-handed about the outward normal (2-D: the edge, interior on its
 /// left). Corner numbers are those of the gmsh file format; a face ends at its first -1.
 struct Shape {
-  int dim;
-  int corners;
-  int faces;
-  std::array<std::array<std::int8_t, max_face_corners>, max_faces> face;
+  int dim;                                                                ///< 2 or 3
+  int corners;                                                            ///< count of corners
+  int faces;                                                              ///< count of faces
+  std::array<std::array<std::int8_t, max_face_corners>, max_faces> face;  ///< corners of each face
 
+  /// Corners of face f.
   std::span<const std::int8_t> face_corners(int f) const {
     const auto& list = face[static_cast<std::size_t>(f)];
     std::size_t n = 2;
@@ -29,6 +30,7 @@ struct Shape {
   }
 };
 
+/// Of each CellType, in its order.
 inline constexpr std::array<Shape, 6> shapes_of_cells{{
     {2, 3, 3, {{{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}}},
     {2, 4, 4, {{{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}}},
@@ -41,6 +43,7 @@ inline constexpr std::array<Shape, 6> shapes_of_cells{{
     {3, 5, 5, {{{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}},
 }};
 
+/// The shape of a type.
 constexpr const Shape& shape_of(CellType type) {
   return shapes_of_cells[static_cast<std::size_t>(type)];
 }

@@ -15,6 +15,7 @@ struct Graph {
   /// [cells] work beyond that of a fluid cell, in any unit; empty: none
   std::vector<std::int32_t> load;
 
+  /// Count of cells.
   std::int32_t cells() const { return static_cast<std::int32_t>(start.size()) - 1; }
 };
 

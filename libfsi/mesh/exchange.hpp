@@ -16,8 +16,8 @@ namespace fsi {
 /// What came from every rank: items[begin[r]] .. items[begin[r + 1]] from rank r.
 template <class T>
 struct Received {
-  std::vector<T> items;
-  std::vector<int> begin;
+  std::vector<T> items;    ///< from all ranks
+  std::vector<int> begin;  ///< [ranks + 1]
 };
 
 /// Collective. to[r] goes to rank r. T is copied as bytes.
@@ -65,12 +65,16 @@ struct Stretches {
     }
     return all;
   }
+  /// The rank that holds an item.
   int holder(Index item) const {
     const auto after = std::upper_bound(begin.begin(), begin.end(), item);
     return static_cast<int>(after - begin.begin()) - 1;
   }
+  /// The first item of this rank.
   Index first() const { return begin[static_cast<std::size_t>(rank())]; }
+  /// Count of items of this rank.
   Index mine() const { return begin[static_cast<std::size_t>(rank()) + 1] - first(); }
+  /// Count of all items.
   Index size() const { return begin.back(); }
 };
 

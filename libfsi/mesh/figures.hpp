@@ -14,14 +14,15 @@ namespace fsi {
 /// degrees, 1.8, 400 and 660. The tested flows complete on those too
 /// (doc/verification/tetrahedra.md), but such cells take from accuracy and length of the step.
 struct MeshLimits {
+  /// As in CellQuality, at most.
   Real non_orthogonality = 75, skewness = 2, volume_ratio = 20, aspect_ratio = 25;
   Real gap = 6;  ///< cells across the narrowest passage, at least
 };
 
 /// The figures of a mesh as a whole.
 struct MeshFigures {
-  Quality quality;
-  Gap gap;
+  Quality quality;  ///< of the cells
+  Gap gap;          ///< the narrowest passage
 };
 
 /// Collective. walls: between which patches the gap is measured (mesh/gap.hpp); none: all.
@@ -29,7 +30,7 @@ MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls
 
 /// What is past a limit: figure, limit and place in words, and what to change in gmsh.
 struct Finding {
-  std::string what, change;
+  std::string what, change;  ///< each a sentence
 };
 
 /// In the order non-orthogonality, skewness, volume ratio, aspect ratio, gap.

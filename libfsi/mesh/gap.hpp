@@ -21,7 +21,7 @@ struct Gap {
 /// face of one of them whose normal is within 45 degrees of it: so corners do not count. Its cells
 /// are
 ///   sum over the cells it crosses of (length within the cell) / (extent of the cell along it),
-/// the extent from the first to the last corner: in a block of n bricks from wall to wall it is n.
+/// the extent from the first to the last corner. In a block of n bricks from wall to wall it is n.
 /// The result is the line with the fewest cells. Lines of more than a thousand cells do not count.
 /// Errors: Error{input} for an unknown patch.
 Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls = {});

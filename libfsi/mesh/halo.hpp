@@ -17,8 +17,11 @@ class Halo {
   /// cell n_owned + i.
   Halo(Index n_owned, std::span<const int> halo_owner, std::span<const Index> halo_owner_cell);
   ~Halo();
+  ///@{
+  /// Moves the lists.
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
+  ///@}
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
 
@@ -30,6 +33,7 @@ class Halo {
   /// Collective. update() in two parts, with room for work between them: `owned` holds n_owned
   /// items and must stay as it is, of `values` only the halo part is written, by the time of end().
   void begin(const Real* owned, Real* values, int width) const;
+  /// The second part: on return the halo part is set.
   void end(const Real* owned, Real* values, int width) const;
 
   /// update() of any field of Real, Vec3, SymTensor or Tensor.
@@ -42,6 +46,7 @@ class Halo {
   /// those travel, the halo's others become zero. `where`: n_cells, itself up to date in the halo.
   /// Allocates nothing once the most cells were sent.
   void update(Real* values, int width, const Real* where) const;
+  /// update() of a field, where `where` is not zero.
   template <class Field, class Flags>
   void update(Field& field, const Flags& where) const {
     update(reinterpret_cast<Real*>(field.data()), components<typename Field::value_type>,

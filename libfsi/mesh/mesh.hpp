@@ -16,10 +16,12 @@ namespace fsi {
 
 /// Rows of indices: row i is index[offset[i]] .. index[offset[i + 1]].
 struct Csr {
-  std::vector<Index> offset{0};
-  std::vector<Index> index;
+  std::vector<Index> offset{0};  ///< begin of each row, and the end of the last
+  std::vector<Index> index;      ///< the rows, one after the other
 
+  /// Count of rows.
   Index rows() const { return static_cast<Index>(offset.size()) - 1; }
+  /// Row i.
   std::span<const Index> operator[](Index i) const {
     return {index.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
   }
@@ -28,8 +30,8 @@ struct Csr {
 /// Boundary faces [begin, end) that carry one physical name. On a rank without such faces the patch
 /// is there and empty: every rank holds the same names in the same order.
 struct Patch {
-  std::string name;
-  Index begin = 0, end = 0;
+  std::string name;          ///< physical name in the gmsh file
+  Index begin = 0, end = 0;  ///< its faces, the last not included
 };
 
 /// One rank's part of the mesh.
@@ -43,9 +45,9 @@ struct Patch {
 /// Periodic pairs are internal faces; only `d`, `shift` and `translation` know of it.
 /// 2-D: cells are polygons in the plane z = 0, V is an area, faces are edges, |Sf| a length.
 struct Mesh {
-  int dim = 3;
-  Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;
-  GlobalIndex n_global = 0;  ///< cells of all ranks
+  int dim = 3;                                                  ///< 2 or 3
+  Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;  ///< counts on this rank, as above
+  GlobalIndex n_global = 0;                                     ///< cells of all ranks
 
   // faces
   std::vector<Index> owner;      ///< [n_faces] P
@@ -79,14 +81,17 @@ struct Mesh {
       vertex_id;  ///< [points] that of the one point all joined by a period stand for
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero
 
-  Halo halo;
+  Halo halo;               ///< exchange of cell values between ranks
   Real total_volume = 0;   ///< of all ranks
   std::uint64_t hash = 0;  ///< of the mesh as read; a checkpoint of another mesh is refused
 
+  /// Count of boundary faces on this rank.
   Index n_boundary() const { return n_faces - n_internal; }
   /// Whether a cell is a triangle or a tetrahedron, a quadrilateral or a hexahedron.
   bool simplex(Index c) const { return static_cast<int>(cell_points[c].size()) == dim + 1; }
+  /// Whether a cell is a quadrilateral or a hexahedron.
   bool brick(Index c) const { return static_cast<int>(cell_points[c].size()) == 1 << dim; }
+  /// The kind of a cell.
   CellType type(Index c) const { return type_of(dim, cell_points[c].size()); }
 
   /// Corner i of face f as seen from cell c (its owner, or its neighbour across a period).

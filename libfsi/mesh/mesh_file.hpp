@@ -12,8 +12,8 @@ namespace fsi {
 bool is_mesh_file(const std::string& file);
 
 /// One rank. Adds the group "/fsi" to the HDF5 file, which must exist: cells by their corners,
-/// points, names of the boundary faces, periodic pairs and the hash of the whole mesh. periodic:
-/// the patches that were joined. Errors: Error{io}.
+/// points, names of the boundary faces, periodic pairs and the hash of the whole mesh. The list
+/// `periodic` names the patches that were joined. Errors: Error{io}.
 void write_mesh_tables(const std::string& file, const CellList& whole,
                        const std::vector<std::string>& periodic);
 

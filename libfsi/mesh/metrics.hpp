@@ -9,10 +9,12 @@
 
 namespace fsi {
 
+/// A face.
 struct FaceMetrics {
   Vec3 Sf;      ///< area vector, right-handed about the order of the corners
   Vec3 centre;  ///< centroid
 };
+/// A cell.
 struct CellMetrics {
   Real V = 0;   ///< volume, negative for a cell turned inside out; area in 2-D
   Vec3 centre;  ///< centroid

@@ -13,7 +13,7 @@ namespace fsi {
 struct PeriodicPairs {
   std::vector<Index> vertex;   ///< [points]
   std::vector<Offset> offset;  ///< [points]
-  std::vector<Vec3> periods;
+  std::vector<Vec3> periods;   ///< translations
 };
 
 /// Joins the nodes that $Periodic of the file pairs and those of `pairs` (names a, b, c, d: a with

@@ -21,28 +21,36 @@ class Handle {
  public:
   Handle() = default;
   ~Handle() { destroy(&object_); }  // NOLINT: a destructor has nobody to tell
+  ///@{
+  /// Moves the object.
   Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
   Handle& operator=(Handle&& other) noexcept {
+    ///@}
     std::swap(object_, other.object_);
     return *this;
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
+  /// The object itself.
   operator T() const { return object_; }
+  /// Where PETSc is to put a new one.
   T* out() { return &object_; }
+  /// Gives the object away.
   T release() { return std::exchange(object_, nullptr); }
 
  private:
   T object_ = nullptr;
 };
+/// A DMPlex.
 using Plex = Handle<DM, DMDestroy>;
+/// A star forest.
 using StarForest = Handle<PetscSF, PetscSFDestroy>;
 
 /// This rank's cells by numbers of vertices that all ranks share.
 struct NumberedCells {
-  int dim = 3;
-  std::span<const CellType> types;
-  Csr vertices;  ///< [cells] in the order of Shape
+  int dim = 3;                      ///< 2 or 3
+  std::span<const CellType> types;  ///< [cells]
+  Csr vertices;                     ///< [cells] in the order of Shape
 };
 
 /// Collective. The cells and their vertices, without coordinates, faces and edges; a vertex of

@@ -16,8 +16,8 @@ namespace fsi {
 
 /// A face of the boundary: its patch and its vertices by number; -1 fills what it does not have.
 struct BoundaryFace {
-  Index patch;
-  std::array<Index, max_face_corners> vertices{-1, -1, -1, -1};
+  Index patch;                                                   ///< its number
+  std::array<Index, max_face_corners> vertices{-1, -1, -1, -1};  ///< by number
 };
 
 /// Collective. The cells with all their faces, edges and vertices; x: place of a vertex by number.

@@ -18,9 +18,10 @@ struct Parts {
 };
 
 /// Collective. Divides the graph of cells that share a face (across a period too): metis by
-/// `divide` on rank 0, which has the whole graph for that time (some 60 bytes a cell), with the
-/// load and the direction of `how`; ptscotch and simple, which are PETSc's, each rank with its own
-/// cells and without load. `here`: the stretch of cells with its points; n_vertices: in the file.
+/// `divide` on rank 0, which has the whole graph for that time (some 60 bytes a cell). It takes the
+/// load and the direction of `how`. With ptscotch and simple, which are PETSc's, each rank has its
+/// own cells, and there is no load. `here`: the stretch of cells with its points; n_vertices: in
+/// the file.
 Parts partition_cells(const CellList& here, const Stretches& cells, Index n_vertices,
                       const Division& how);
 

@@ -15,7 +15,7 @@ namespace fsi {
 ///   volume_ratio       the larger volume of the two cells of a face over the smaller, the same
 ///   aspect_ratio       longest edge over least thickness, in that of the regular cell of its type
 struct CellQuality {
-  std::vector<Real> non_orthogonality, skewness, volume_ratio, aspect_ratio;
+  std::vector<Real> non_orthogonality, skewness, volume_ratio, aspect_ratio;  ///< [n_owned]
 };
 
 /// The figures of the owned cells.
@@ -25,14 +25,15 @@ CellQuality cell_quality(const Mesh& mesh);
 /// 10 for a brick of 10 x 1 x 1. The thickness is the least over the faces of the distance of the
 /// farthest corner from the face's plane: of a tet its least height.
 Real aspect_ratio(CellType type, std::span<const Vec3> corners);
+/// That of cell c.
 Real aspect_ratio(const Mesh& mesh, Index c);
 
 /// A figure and the cell that has it: its centre, number in the mesh file (from 0) and type.
 struct Worst {
-  Real value = 0;
-  Vec3 x{};
-  GlobalIndex cell = -1;
-  CellType type = CellType::tet;
+  Real value = 0;                 ///< the figure
+  Vec3 x{};                       ///< centre of the cell
+  GlobalIndex cell = -1;          ///< its number in the mesh file
+  CellType type = CellType::tet;  ///< its kind
 };
 
 /// Collective. The `most` largest of the values of owned cells, the largest first, of equal ones
@@ -44,14 +45,15 @@ Real value_at(std::span<const Real> values, GlobalIndex cell, const Mesh& mesh);
 
 /// What a user should know of a mesh before trusting a run on it.
 struct Quality {
-  Worst non_orthogonality, skewness, volume_ratio, aspect_ratio;
-  Real non_orthogonality_mean = 0;  ///< over the internal faces
-  Real volume_min = 0, volume_max = 0;
+  Worst non_orthogonality, skewness, volume_ratio, aspect_ratio;  ///< the worst of each
+  Real non_orthogonality_mean = 0;                                ///< over the internal faces
+  Real volume_min = 0, volume_max = 0;                            ///< smallest and largest cell
   Real closure_max = 0;  ///< max over cells of |sum Sf| / sum |Sf|
 };
 
 /// Collective.
 Quality quality(const Mesh& mesh);
+/// The same from figures that are there already.
 Quality quality(const Mesh& mesh, const CellQuality& cells);
 
 /// Collective. Centroid of a patch, weighted with area. Errors: Error{input} for an unknown name.

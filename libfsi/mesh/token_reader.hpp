@@ -14,9 +14,12 @@ namespace fsi {
 /// A cursor over the text of a file. Every failed read throws Error{input} with the place.
 class Source {
  public:
+  /// text: the content of the file.
   Source(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
 
+  /// Whether numbers are bytes from here on.
   void set_binary(bool binary) { binary_ = binary; }
+  /// Whether they are.
   bool binary() const { return binary_; }
   /// The section whose end a truncated file misses.
   void set_section(std::string_view section) { section_ = section; }
@@ -45,6 +48,7 @@ class Source {
     return value;
   }
   template <class T>
+  /// The next number, as bytes.
   T bytes() {
     if (left() < sizeof(T)) fail_end();
     T value;
@@ -99,8 +103,10 @@ class Source {
     }
     return n;
   }
+  /// Characters left.
   std::size_t left() const { return text_.size() - at_; }
 
+  /// Error{input} with file, place and `what`.
   [[noreturn]] void fail(const std::string& what) const {
     if (binary_) {
       throw Error(ErrorKind::input, file_ + ", byte " + std::to_string(at_) + ": " + what);
@@ -109,6 +115,7 @@ class Source {
     for (std::size_t i = 0; i < at_ && i < text_.size(); ++i) line += text_[i] == '\n' ? 1 : 0;
     throw Error(ErrorKind::input, file_ + ", line " + std::to_string(line) + ": " + what);
   }
+  /// Error{input}: the file ends too early.
   [[noreturn]] void fail_end() const { fail("the file ends inside " + section_); }
 
  private:

@@ -14,11 +14,11 @@ namespace fsi {
 ///   g       |Sf|^2 / (Sf . d): over-relaxed coefficient of (q_N - q_P)           [Jasak96] (3.32)
 ///   k       Sf - g d: what is left for the explicit non-orthogonal correction
 ///
-/// A face is irregular where the mean of its two cells and the difference along d do not do: Cf is
+/// A face is irregular where the mean of its two cells and the difference along d do not do. Cf is
 /// not the midpoint of PN or k is not zero, in parts of 1e-8, or the face lies at the boundary and
 /// its cell is neither a quadrilateral nor a hexahedron. What it needs besides comes from the
-/// gradient there (VertexMean), in proportion to these offsets: the limit decides what work is
-/// done, a change of the mesh across it changes the results in the eighth digit.
+/// gradient there (VertexMean), in proportion to these offsets. The limit decides what work is
+/// done. A change of the mesh across it changes the results in the eighth digit.
 struct FaceWeights {
   /// Collective.
   explicit FaceWeights(const Mesh& mesh);

@@ -20,7 +20,7 @@ struct GradientStencil {
   /// has_value[i]: whether the field is given on mesh.patches[i].
   GradientStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& has_value);
 
-  const FaceWeights& weights;
+  const FaceWeights& weights;   ///< of the faces
   std::vector<Vec3> owner;      ///< [n_faces] g_Pf; zero on patches without a value
   std::vector<Vec3> neighbour;  ///< [n_internal] g_Nf
   std::vector<char> given;      ///< [n_boundary] 1 on patches with a value
@@ -28,7 +28,7 @@ struct GradientStencil {
   /// Owned cells, not triangles or tetrahedra, with faces without a value, and for each of them
   /// (I - (1/V) sum S (x) d over these)^-1, I where that is singular: a pressure's own gradient.
   std::vector<Index> closed_cells;
-  std::vector<Tensor> closed;
+  std::vector<Tensor> closed;  ///< as above
 
   /// g_cf of face f for its cell P, or for N.
   const Vec3& weight(Index f, bool of_owner) const { return of_owner ? owner[f] : neighbour[f]; }
@@ -41,7 +41,7 @@ void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryFie
 /// The gradient of a pressure, whose force must be one of face values,
 ///   grad q_c = (1/V) sum_f (q_f - q_c) S,   q_f = (1 - lambda) q_P + lambda q_N + (grad q)_f .
 ///   skew,
-/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets, and but for the
+/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets. But for the
 /// skewness it is the adjoint of the flux of lambda u_P + (1 - lambda) u_N, so that a pressure
 /// works on a velocity through the divergence of that alone [Trias14]. Exact for linear fields.
 /// Where the boundary has no value, q_f is q_P + grad q_c . d, in triangles and tetrahedra, whose

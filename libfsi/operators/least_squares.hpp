@@ -38,6 +38,7 @@ SymTensor raised_inverse(SymTensor M, int dim);
 
 /// The slope of a velocity, by what it is more than a guess.
 struct SlopeFit {
+  /// guess_: what holds where the places tell nothing.
   explicit SlopeFit(const Tensor& guess_ = {}) : guess(guess_) {}
 
   /// du at r. Returns its weight w.
@@ -60,14 +61,14 @@ struct SlopeFit {
     return L;
   }
 
-  Tensor guess;
-  SymTensor M;
-  Tensor R;  ///< of what du is more than guess . r
+  Tensor guess;  ///< as it was made with
+  SymTensor M;   ///< sum of w r r
+  Tensor R;      ///< of what du is more than guess . r
 };
 
-/// Inverse of M over the vertex neighbours of owned cell c; on directions in which these do not
-/// spread (a corner cell, a layer one cell thick) the pseudo-inverse, so that the slope there is
-/// zero.
+/// Inverse of M over the vertex neighbours of owned cell c. On directions in which these do not
+/// spread (a corner cell, a layer one cell thick) it is the pseudo-inverse, so that the slope there
+/// is zero.
 SymTensor inverse_moments(const Mesh& mesh, Index c);
 
 /// grad q = M^-1 sum w r (q_k - q_c) over the vertex neighbours of owned cell c, exact for linear

@@ -13,6 +13,7 @@ namespace fsi {
 
 /// A symmetric matrix on the cell graph: one diagonal value a cell, one coefficient a face.
 struct FaceMatrix {
+  /// A zero matrix.
   explicit FaceMatrix(const Mesh& mesh)
       : diagonal(static_cast<std::size_t>(mesh.n_owned)),
         off_diagonal(static_cast<std::size_t>(mesh.n_internal)) {}
@@ -28,8 +29,8 @@ enum class Method {
 
 /// What a solve took.
 struct SolveResult {
-  int iterations = 0;
-  Real residual = 0;  ///< norm at the end, as the solver measures it
+  int iterations = 0;  ///< count
+  Real residual = 0;   ///< norm at the end, as the solver measures it
 };
 
 /// Mat + KSP. The name is the option prefix: "p" reads -p_ksp_type and so on.
@@ -39,8 +40,11 @@ class LinearSystem {
   LinearSystem(const Mesh& mesh, const std::string& name, Method method, bool singular,
                Real relative_tolerance);
   ~LinearSystem();
+  ///@{
+  /// Moves the system.
   LinearSystem(LinearSystem&&) noexcept;
   LinearSystem& operator=(LinearSystem&&) noexcept;
+  ///@}
 
   /// Collective. Sets the values, once for all: what another assembly would need is freed.
   void assemble(const FaceMatrix& matrix);

@@ -5,8 +5,8 @@
 
 namespace fsi {
 
-/// Looks at what the user says to the solver `prefix` ("p_", "u_"): whether its types exist, the
-/// relative tolerance lies between 0 and 1, the absolute one is not negative and it may take at
+/// Looks at what the user says to the solver `prefix` ("p_", "u_"). Its types must exist, the
+/// relative tolerance lie between 0 and 1, the absolute one not be negative, and it may take at
 /// least one iteration. Errors: Error{input} that names the option, its value and what is valid.
 void check_solver_options(const std::string& prefix);
 

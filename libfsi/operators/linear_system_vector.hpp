@@ -13,6 +13,7 @@ namespace fsi {
 /// A symmetric matrix on the cell graph that couples no components: one coefficient a face for all
 /// of them, one diagonal value a cell and component.
 struct VectorMatrix {
+  /// A zero matrix.
   explicit VectorMatrix(const Mesh& mesh)
       : diagonal(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
         off_diagonal(static_cast<std::size_t>(mesh.n_internal)) {}
@@ -25,11 +26,14 @@ struct VectorMatrix {
 class VectorSystem {
  public:
   /// Collective. The name is the option prefix: "u" reads -u_ksp_type and so on. Errors:
-  /// Error{input} if -<name>_pc_type needs an assembled matrix.
+  /// Error{input} if -NAME_pc_type needs an assembled matrix.
   VectorSystem(const Mesh& mesh, const std::string& name, Real relative_tolerance);
   ~VectorSystem();
+  ///@{
+  /// Moves the system.
   VectorSystem(VectorSystem&&) noexcept;
   VectorSystem& operator=(VectorSystem&&) noexcept;
+  ///@}
 
   /// To be filled; renewed() tells the solver.
   VectorMatrix& matrix();

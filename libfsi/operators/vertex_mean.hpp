@@ -18,8 +18,8 @@ namespace fsi {
 ///   G_v = sum w_c G_c / sum w_c,   w_c = 1 / sum_f |g_cf|^2,
 ///
 /// g_cf the weights of the cell's gradient, so that w_c is the inverse of the variance that
-/// uncorrelated errors of q give it: a flat cell, or one that a boundary without values leaves with
-/// few neighbours, hardly counts; one with too few for a fit counts where there is no other. Exact
+/// uncorrelated errors of q give it. A flat cell, or one that a boundary without values leaves with
+/// few neighbours, hardly counts. One with too few for a fit counts where there is no other. Exact
 /// for linear fields. A hexahedron's gradient does not see a
 /// field that alternates from cell to cell. That of a tetrahedron from its four neighbours does, so
 /// much that second-order convection with it grows [Haider09]; two dozen cells about a vertex
@@ -63,8 +63,8 @@ struct PressureStencil {
   PressureStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& given)
       : cells(mesh, weights, given), at_faces(mesh, cells) {}
 
-  GradientStencil cells;
-  VertexMean<Vec3> at_faces;
+  GradientStencil cells;      ///< gradient in the cells
+  VertexMean<Vec3> at_faces;  ///< and at irregular faces
 };
 
 }  // namespace fsi

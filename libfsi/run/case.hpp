@@ -13,41 +13,41 @@ namespace fsi {
 
 /// How time advances.
 struct TimeSetup {
-  Real end = 1, courant = 0.5;
-  Real step = 0;        ///< fixed step; 0: as large as the limits allow
-  Real step_max = 0;    ///< 0: none
-  Real step_first = 0;  ///< the next ones grow by a tenth each; 0: none of that
+  Real end = 1, courant = 0.5;  ///< end of the run; Courant number of the flow
+  Real step = 0;                ///< fixed step; 0: as large as the limits allow
+  Real step_max = 0;            ///< 0: none
+  Real step_first = 0;          ///< the next ones grow by a tenth each; 0: none of that
 };
 
 /// What is written, where and how often.
 struct OutputSetup {
-  std::string directory;
-  Real field_interval = 0, sample_interval = 0,
-       checkpoint_interval = 0;  ///< simulated time; 0: never
-  bool restart = false;
+  std::string directory;  ///< where the files go
+  /// Simulated time between field files, rows and checkpoints; 0: never.
+  Real field_interval = 0, sample_interval = 0, checkpoint_interval = 0;
+  bool restart = false;         ///< go on from the checkpoint in the directory
   bool end_when_empty = false;  ///< once the solid has left the mesh
   Real wall_seconds_max = 0;    ///< 0: no limit
 };
 
 /// A solid as the user described it.
 struct SolidSetup {
-  Solid solid;
+  Solid solid;                 ///< shape, place and material
   shapes::Shape about_origin;  ///< the same shape, its axis of revolution along x
   Real angle = 0;              ///< between that axis and x when placed, in degrees
-  std::string shape_name;
-  Real thickness = 0;   ///< the least of its dimensions
-  std::string options;  ///< what its options begin with: "solid_" or "solids_NAME_"
+  std::string shape_name;      ///< as the option has it
+  Real thickness = 0;          ///< the least of its dimensions
+  std::string options;         ///< what its options begin with: "solid_" or "solids_NAME_"
 };
 
 /// A case as the user described it.
 struct Case {
-  MeshOptions mesh;
-  Physics physics;
-  std::string fluid;  ///< in words, with what is there by default
-  FlowSetup flow;     ///< without conditions
-  std::vector<SolidSetup> solids;
-  TimeSetup time;
-  OutputSetup output;
+  MeshOptions mesh;                ///< file, periods and division among ranks
+  Physics physics;                 ///< density, viscosity, gravity
+  std::string fluid;               ///< in words, with what is there by default
+  FlowSetup flow;                  ///< without conditions
+  std::vector<SolidSetup> solids;  ///< in the order of their names
+  TimeSetup time;                  ///< end and length of steps
+  OutputSetup output;              ///< what is written
 };
 
 /// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
@@ -72,8 +72,8 @@ std::string differences(const std::string& before, const std::string& now);
 
 /// Collective. Prints what the run is about: the mesh and its figures, a warning where one is past
 /// its limit (mesh/figures.hpp), the fluid, what loads the openings, and the numbers that follow
-/// from the case's length and velocity.
-/// velocity 0: it is not known yet, and what depends on it is left out.
+/// from the case's length and velocity. Where the velocity is 0 it is not known yet, and what
+/// depends on it is left out.
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity);
 
 /// Collective. Every limit on the time step; a fixed step is the only one.

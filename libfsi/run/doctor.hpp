@@ -15,7 +15,7 @@ namespace fsi {
 /// Courant rate of a flow of speed 1 along the axis that makes it largest,
 /// max_k sum_f |S_f . e_k| / (2 V).
 struct Treatment {
-  std::vector<Real> beta, theta, rate;
+  std::vector<Real> beta, theta, rate;          ///< [n_owned]
   Real beta_mean = 0, theta_mean = 0;           ///< over the internal faces of all ranks
   GlobalIndex n_internal = 0, n_irregular = 0;  ///< internal faces of all ranks
 };
@@ -25,13 +25,13 @@ Treatment treatment(const Mesh& mesh, const FaceWeights& weights);
 
 /// A patch as a whole.
 struct PatchFigures {
-  GlobalIndex faces = 0;
-  Real area = 0;
-  Real diameter = 0;  ///< of the circle of that area, (4 A / pi)^(1/2); in 2-D the length
-  Vec3 centre{};      ///< mean of its points
-  Vec3 normal{};      ///< outward, of the sum of the area vectors; zero where they cancel
-  Real degrees = 0;   ///< largest angle between a face's normal and that
-  bool flat = false;  ///< all faces lie in one plane, to 1e-6 of the patch's size
+  GlobalIndex faces = 0;  ///< of all ranks
+  Real area = 0;          ///< in 2-D the length
+  Real diameter = 0;      ///< of the circle of that area, (4 A / pi)^(1/2); in 2-D the length
+  Vec3 centre{};          ///< mean of its points
+  Vec3 normal{};          ///< outward, of the sum of the area vectors; zero where they cancel
+  Real degrees = 0;       ///< largest angle between a face's normal and that
+  bool flat = false;      ///< all faces lie in one plane, to 1e-6 of the patch's size
 };
 
 /// Collective.

@@ -27,7 +27,7 @@ namespace fsi {
 class Output {
  public:
   /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
-  /// earlier one left there under the same names; with -restart the solver's state, the tables and
+  /// earlier one left there under the same names. With -restart the solver's state, the tables and
   /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
   /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
   /// directory, there is nothing to go on from, or it is of another driver or kinematics.

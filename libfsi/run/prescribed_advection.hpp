@@ -30,13 +30,19 @@ class PrescribedAdvection {
   /// Collective. From t to t + dt, with the velocity of the middle of the step.
   void step(Real dt);
 
+  /// The mesh.
   const Mesh& mesh() const { return mesh_; }
+  /// The time reached.
   Real t() const { return t_; }
+  /// Count of steps taken.
   std::int64_t steps() const { return steps_; }
+  /// Fraction of the body.
   const CellField<Real>& alpha() const { return alpha_; }
+  /// The velocity of the last step.
   const CellField<Vec3>& u() const { return u_; }
   /// Collective. sum |alpha - alpha at the start| V: the shape error, after a whole period.
   Real difference() const { return vof::difference(alpha_, start_, mesh_); }
+  /// What the last step left.
   const vof::AdvectReport& report() const { return report_; }
 
  private:
@@ -61,9 +67,13 @@ class PrescribedAdvectionOutput {
   PrescribedAdvectionOutput(const Case& setup, const Options& options,
                             const PrescribedAdvection& carried);
 
+  /// Collective. Whether no signal and no time limit ends the run.
   bool go_on();
+  /// Time at which the next step must end: the next field file.
   Real next_event() const { return field_.next(carried_.t()); }
+  /// Collective. Writes what is due.
   void after_step();
+  /// Collective. Writes the end of the run and tells how it ended.
   RunStatus finish();
 
  private:

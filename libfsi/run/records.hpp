@@ -12,7 +12,9 @@
 
 namespace fsi {
 
+/// The names of the columns.
 std::vector<std::string> names(const std::vector<Entry>& row);
+/// The numbers.
 std::vector<Real> values(const std::vector<Entry>& row);
 
 /// Collective. What a row of flow.csv tells of the flow after a step of length dt:
@@ -66,6 +68,7 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 /// Collective. Elastic energy of a solid: of its stress, and of the strain that the map to the
 /// undeformed solid tells (0 without one).
 Real elastic_energy(const Body& body);
+/// The second of them.
 Real shape_energy(const Body& body);
 
 }  // namespace fsi

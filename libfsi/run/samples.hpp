@@ -20,15 +20,15 @@ enum class Course {
 
 /// A number under the name of its column.
 struct Entry {
-  std::string name;
-  Real value;
-  Course course = Course::smooth;
+  std::string name;                ///< of the column
+  Real value;                      ///< in this row
+  Course course = Course::smooth;  ///< how it runs from row to row
 };
 
 /// A row and the times that its columns are of; the first column is t.
 struct Row {
-  Real t = 0, t_shape = 0;
-  std::vector<Entry> entries;
+  Real t = 0, t_shape = 0;     ///< time of the flow and of the solid
+  std::vector<Entry> entries;  ///< the columns after t
 };
 
 /// The row at time t from rows before and after it: an error of second order in their distance. The
@@ -41,6 +41,7 @@ std::vector<Real> between(const Row& before, const Row& after, Real t);
 /// state, one a table, or nothing. What it holds is part of a checkpoint.
 class Samples {
  public:
+  /// interval: between rows; 0: a row at the end of every step.
   explicit Samples(Real interval) : each_step_(interval <= 0), every_(interval) {
     every_.resume(0);
   }
@@ -58,6 +59,7 @@ class Samples {
 
   /// For a restart at t with what text() told.
   void resume(Real t, const std::string& text);
+  /// What a checkpoint keeps of it.
   std::string text() const;
   /// Time of the last row due up to t.
   Real last(Real t) const { return each_step_ ? t : every_.last(t); }

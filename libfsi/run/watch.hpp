@@ -12,6 +12,7 @@ namespace fsi {
 /// Tells each of these once a run, on rank 0.
 class Watch {
  public:
+  /// bodies: count of solids.
   explicit Watch(std::size_t bodies) : said_(bodies) {}
 
   /// A warning when `made`, the part of the energy that comes from nothing, is odd; where it is
@@ -19,8 +20,9 @@ class Watch {
   std::string energy(Real made, const State& state);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
-  /// A warning when a solid is strained past what the mesh resolves, when the energy of its stress
-  /// is not that of its shape, and when it falls into more pieces than it had when this was first
+  /// A warning when a solid is strained past what the mesh resolves, and when the energy of its
+  /// stress is not that of its shape. Another when it falls into more pieces than it had when this
+  /// was first
   /// asked.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound);
 

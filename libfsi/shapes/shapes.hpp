@@ -14,11 +14,12 @@ namespace fsi::shapes {
 /// bound of its gradient.
 using Shape = std::function<Real(const Vec3&)>;
 
+/// Larger than any distance.
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 // Each shape below is centred at the origin with its axis of revolution along x. A 2-D run sees the
-// section with the plane z = 0: a sphere is a disc, a torus is a pair of discs, a cylinder is a
-// rectangle; give `ellipsoid` and `box` an infinite extent along z there. Lengths must be positive
+// section with the plane z = 0. A sphere is a disc, a torus is a pair of discs, a cylinder is a
+// rectangle. Give `ellipsoid` and `box` an infinite extent along z there. Lengths must be positive
 // (Error{input}), infinite only where it is said.
 
 /// Ball; exact distance.
@@ -58,7 +59,10 @@ Shape align(Shape shape, const Vec3& axis);
 Shape unite(std::vector<Shape> parts);
 
 // Measures for comparison: volumes of the shapes above, and areas of their plane sections z = 0.
+/// The circle's number.
 constexpr Real pi = 3.14159265358979323846;
+///@{
+/// Exact volume (of the disc: area) of the shape of that name.
 constexpr Real sphere_volume(Real radius) { return 4 * pi / 3 * radius * radius * radius; }
 constexpr Real disc_area(Real radius) { return pi * radius * radius; }
 constexpr Real ellipsoid_volume(const Vec3& a) { return 4 * pi / 3 * a.x * a.y * a.z; }
@@ -68,5 +72,6 @@ constexpr Real capsule_volume(Real radius, Real length) {
   return sphere_volume(radius) + cylinder_volume(radius, length);
 }
 constexpr Real box_volume(const Vec3& sides) { return sides.x * sides.y * sides.z; }
+///@}
 
 }  // namespace fsi::shapes

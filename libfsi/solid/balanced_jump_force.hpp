@@ -21,6 +21,7 @@ namespace fsi::solid {
 /// conservative.
 class BalancedJumpForce {
  public:
+  /// mesh and weights must outlive it.
   BalancedJumpForce(const Mesh& mesh, const FaceWeights& weights);
 
   /// No rises.

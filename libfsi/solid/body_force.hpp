@@ -12,6 +12,7 @@ namespace fsi::solid {
 /// force taken cell by cell leaves there what no pressure balances.
 class BodyForce {
  public:
+  /// a: acceleration of the solid.
   BodyForce(const Mesh& mesh, const FaceWeights& weights, const Vec3& a)
       : mesh_(mesh), a_(a), jump_force_(mesh, weights) {}
 

@@ -21,6 +21,7 @@ struct ElasticState {
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
 class ElasticForce {
  public:
+  /// mesh and weights must outlive it.
   ElasticForce(const Mesh& mesh, const FaceWeights& weights, Real G);
 
   /// Collective. tau = G dev(alpha T)                                     [Matsumiya25] (11)
@@ -39,6 +40,7 @@ class ElasticForce {
              const FaceWeights& weights, PressureStencil& pressure, const Band& band,
              CellField<SymGradient>& grad);
 
+  /// Shear modulus.
   Real G() const { return G_; }
 
  private:

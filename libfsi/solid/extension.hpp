@@ -28,6 +28,7 @@ inline constexpr Real alpha_known = 0.5;
 /// as a constant; what alternates from cell to cell is not extrapolated.
 class Extension {
  public:
+  /// mesh must outlive it.
   explicit Extension(const Mesh& mesh) : mesh_(mesh), zone_(mesh), rings_(mesh) {}
 
   /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known, and finds its

@@ -10,10 +10,14 @@ namespace fsi::solid {
 
 /// Derivatives of a symmetric tensor along x, y, z.
 struct SymGradient {
+  /// Derivative along that axis.
   SymTensor x, y, z;
 
+  ///@{
+  /// Component by component.
   SymGradient& operator+=(const SymGradient& b) { return x += b.x, y += b.y, z += b.z, *this; }
   friend SymGradient operator*(Real s, const SymGradient& g) { return {s * g.x, s * g.y, s * g.z}; }
+  ///@}
 };
 /// That of T along g: the derivative along x is g.x T.
 inline SymGradient outer(const SymTensor& T, const Vec3& g) { return {g.x * T, g.y * T, g.z * T}; }
@@ -33,7 +37,7 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
 
 /// The boundary where the solid touches it.
 struct Contact {
-  const BoundaryField<Vec3>& u_b;
+  const BoundaryField<Vec3>& u_b;      ///< velocity of the boundary
   const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
 };
 
@@ -47,11 +51,11 @@ class ReferenceMap;
 
 /// The flow, frozen over a step of the solid.
 struct FlowSnapshot {
-  const FaceField<Real>& phi;
-  const CellField<Vec3>& u;
+  const FaceField<Real>& phi;      ///< volume flux
+  const CellField<Vec3>& u;        ///< velocity
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
-  const FaceWeights& weights;
+  const FaceWeights& weights;      ///< of the faces
   /// What strains the solid's cells, owned (InterfaceGradient); none: L, u and phi do.
   const CellField<Tensor>* strain = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere

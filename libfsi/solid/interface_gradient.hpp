@@ -15,7 +15,7 @@ bool has_simplices(const Mesh& mesh);
 /// Where the surface cuts cells, and what a kink j max(0, s) of u there, s the distance along n,
 /// adds to their velocity. All owned and halo.
 struct Cuts {
-  const CellField<Real>& alpha;
+  const CellField<Real>& alpha;       ///< fraction of the solid
   const CellField<Vec3>& normal;      ///< n, out of the solid; zero in cells that are not cut
   const CellField<Real>& solid_side;  ///< phi: to that of the solid's side, u = u_S + j phi
   const CellField<Real>& fluid_side;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
@@ -42,6 +42,7 @@ struct Cuts {
 /// L_out the means over the vertex neighbours on either side, with weights alpha and 1 - alpha.
 class InterfaceGradient {
  public:
+  /// mesh must outlive it.
   explicit InterfaceGradient(const Mesh& mesh)
       : mesh_(mesh), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
 

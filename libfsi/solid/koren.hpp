@@ -24,6 +24,7 @@ inline Real koren(Real step, Real slope) {
 inline Vec3 koren(const Vec3& step, const Vec3& slope) {
   return {koren(step.x, slope.x), koren(step.y, slope.y), koren(step.z, slope.z)};
 }
+/// The same component by component.
 inline SymTensor koren(const SymTensor& step, const SymTensor& slope) {
   return {koren(step.xx, slope.xx), koren(step.xy, slope.xy), koren(step.xz, slope.xz),
           koren(step.yy, slope.yy), koren(step.yz, slope.yz), koren(step.zz, slope.zz)};

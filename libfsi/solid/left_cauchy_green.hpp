@@ -15,6 +15,7 @@ namespace fsi::solid {
 /// space; explicit. Works on the cells with alpha >= alpha_min.
 class LeftCauchyGreen {
  public:
+  /// mesh must outlive it.
   explicit LeftCauchyGreen(const Mesh& mesh);
 
   /// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
@@ -52,7 +53,7 @@ class LeftCauchyGreen {
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
   SymTensor B(Index c, Real alpha) const;
 
-  CellField<SymTensor> Bt;
+  CellField<SymTensor> Bt;  ///< alpha^(1/2) B, what is transported
 
  private:
   void rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);

@@ -20,6 +20,7 @@ namespace fsi::solid {
 /// order in space; the solver makes it so in time by taking it half a step ahead of the flow.
 class LogConformation {
  public:
+  /// mesh must outlive it.
   explicit LogConformation(const Mesh& mesh);
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
@@ -69,7 +70,7 @@ class LogConformation {
   /// B of a cell.
   SymTensor B(Index c, Real alpha) const;
 
-  CellField<SymTensor> psi;
+  CellField<SymTensor> psi;  ///< log B
 
  private:
   /// Sets L_: carrier.strain, or the velocity gradient without the divergence of the cell

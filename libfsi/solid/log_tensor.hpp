@@ -16,6 +16,7 @@ SymTensor apply_to_eigenvalues(const Eigen& e, Function&& f) {
 
 /// B = exp(psi): symmetric and positive definite for any finite psi. e: of psi.
 SymTensor exp(const Eigen& e);
+/// The same, with the eigenvalues of psi taken here.
 SymTensor exp(const SymTensor& psi);
 /// psi = log(B), B positive definite.
 SymTensor log(const SymTensor& B);

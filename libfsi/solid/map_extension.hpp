@@ -17,6 +17,7 @@ namespace fsi::solid {
 /// for linear d on any mesh, periods included: d has none of its own.
 class MapExtension {
  public:
+  /// mesh must outlive it.
   explicit MapExtension(const Mesh& mesh) : mesh_(mesh), item_(mesh), rings_(mesh) {}
 
   /// Collective. d: owned cells known on entry; on return owned and halo set on known cells and

@@ -28,6 +28,7 @@ class ReferenceMap {
   /// What becomes of a cell in which the map has lost its volume: an error, or its value is fitted
   /// to those around it as where the solid is new.
   enum class Folded { error, refit };
+  /// folded: what a map that folds does.
   explicit ReferenceMap(const Mesh& mesh, Folded folded = Folded::error);
 
   /// Below this fraction a cell carries no stress: round-off of the interface.

@@ -14,8 +14,9 @@ namespace fsi::solid {
 /// before.
 class Rings {
  public:
-  static constexpr int count = 3;
+  static constexpr int count = 3;  ///< of rings
 
+  /// mesh must outlive it.
   explicit Rings(const Mesh& mesh)
       : mesh_(mesh), number_(mesh), stamp_(static_cast<std::size_t>(mesh.n_owned), 0) {}
 

@@ -22,6 +22,7 @@ struct ElasticTerms {
   const CellField<Vec3>& u;         ///< owned and halo
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
   const CellField<Real>& fraction;  ///< alpha; owned and halo
+  /// Shear modulus, density, viscosity of the solid; length of the step.
   Real G, rho, mu_s, dt;
   bool kink = false;       ///< the mean of L allows for a kink of u at the surface
   bool one_sided = false;  ///< L is that of the cell's own side of the surface (InterfaceGradient)

@@ -13,11 +13,11 @@ namespace fsi::solid {
 
 /// What the traction is made of; cell fields owned and halo.
 struct Surface {
-  const CellField<Vec3>& u;
-  const CellField<Tensor>& L;      ///< velocity gradient
-  const std::vector<Tensor>& L_f;  ///< at irregular faces, as the momentum equation has it
-  const CellField<SymTensor>& T;   ///< as the elastic force takes it; known around the surface
-  const CellField<Real>& alpha;
+  const CellField<Vec3>& u;         ///< velocity
+  const CellField<Tensor>& L;       ///< velocity gradient
+  const std::vector<Tensor>& L_f;   ///< at irregular faces, as the momentum equation has it
+  const CellField<SymTensor>& T;    ///< as the elastic force takes it; known around the surface
+  const CellField<Real>& alpha;     ///< fraction of the solid
   const FaceField<Real>& alpha_f;   ///< part of solid on the way between the centres
   const FaceField<Vec3>& normal_f;  ///< of the surface there, zero away from it
   const CellField<Vec3>& normal;    ///< out of the solid; zero away from the surface
@@ -25,7 +25,9 @@ struct Surface {
   const FaceField<Real>& mu;        ///< what the momentum equation has, the mean of the cells'
 };
 
+/// The two viscosities.
 struct Viscosities {
+  /// Dynamic viscosity of each.
   Real solid, fluid;
 };
 

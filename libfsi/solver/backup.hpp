@@ -14,6 +14,7 @@ namespace fsi {
 /// that keep() and restore() allocate nothing.
 class Backup {
  public:
+  /// what: all that the next step depends on.
   Backup(const io::Snapshot& what, const Mesh& mesh);
 
   /// Copies the state.

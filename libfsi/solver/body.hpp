@@ -38,11 +38,12 @@ inline constexpr Real eigenvalue_limit = 1e-4;
 
 /// What the surface between two viscosities needs.
 struct TwoViscosities {
+  /// Collective. mesh and weights must outlive it.
   TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu)
       : traction(mesh, weights, G, mu), normal(mesh), height(mesh) {}
-  solid::SurfaceTraction traction;
-  CellField<Vec3> normal;  ///< of the surface in a cell, out of the solid
-  CellField<Real> height;  ///< of the cell's centre above the surface
+  solid::SurfaceTraction traction;  ///< the stress at the surface
+  CellField<Vec3> normal;           ///< of the surface in a cell, out of the solid
+  CellField<Real> height;           ///< of the cell's centre above the surface
 };
 
 /// The solid's unknowns and the parts of the scheme that work on them.
@@ -134,19 +135,19 @@ struct Body {
   /// What the elastic stress is made of, tau = G dev(T): zero away from the band; owned and halo.
   const CellField<SymTensor>& T() const { return T_of_law ? *T_of_law : B; }
 
-  const Mesh& mesh;
-  const FaceWeights& weights;
-  std::string name;
-  Real G, mu, rho;            ///< shear modulus, dynamic viscosity, density
-  Vec3 weight;                ///< body force per volume: rho a + (rho - rho_fluid) g
-  CellField<Real> alpha;      ///< volume fraction of the solid
-  CellField<Real> alpha_mid;  ///< mean of it and of that before the last step
-  CellField<SymTensor> B;     ///< on the band's cells, zero elsewhere; owned and halo
-  FaceField<Real> alpha_f;    ///< part of solid at the band's faces
-  FaceField<Vec3> normal_f;   ///< of the interface there, zero away from it; where B is extended
-  CellField<Real> lambda;     ///< largest modulus of the law over G, neo-Hookean: eigenvalue of
-                              ///< B; owned and halo
-  solid::Law law;
+  const Mesh& mesh;            ///< of the solver
+  const FaceWeights& weights;  ///< of the solver
+  std::string name;            ///< "" where there is one solid
+  Real G, mu, rho;             ///< shear modulus, dynamic viscosity, density
+  Vec3 weight;                 ///< body force per volume: rho a + (rho - rho_fluid) g
+  CellField<Real> alpha;       ///< volume fraction of the solid
+  CellField<Real> alpha_mid;   ///< mean of it and of that before the last step
+  CellField<SymTensor> B;      ///< on the band's cells, zero elsewhere; owned and halo
+  FaceField<Real> alpha_f;     ///< part of solid at the band's faces
+  FaceField<Vec3> normal_f;    ///< of the interface there, zero away from it; where B is extended
+  CellField<Real> lambda;      ///< largest modulus of the law over G, neo-Hookean: eigenvalue of
+                               ///< B; owned and halo
+  solid::Law law;              ///< of the material
   std::optional<CellField<SymTensor>> T_of_law;  ///< where it is not B itself
   BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, by set_touched
   Real t = 0;                   ///< time of alpha and B
@@ -155,14 +156,14 @@ struct Body {
   Real eigenvalue_min = 1;      ///< of B on this rank
   bool beyond_law = false;      ///< whether B is beyond the law's range anywhere
   vof::Interface interface;     ///< planes of alpha
-  vof::ReconstructScratch reconstruct_scratch;
-  vof::AdvectScratch advect_scratch;
-  Band band;  ///< of the cells that carry stress
-  Kinematics kinematics;
-  solid::ElasticForce elastic_force;
-  solid::SemiImplicitElasticity semi_implicit_elasticity;
-  std::optional<TwoViscosities> two_viscosities;  ///< where they differ
-  std::optional<solid::BodyForce> body_force;     ///< where there is one
+  vof::ReconstructScratch reconstruct_scratch;             ///< scratch
+  vof::AdvectScratch advect_scratch;                       ///< scratch
+  Band band;                                               ///< of the cells that carry stress
+  Kinematics kinematics;                                   ///< how strain is tracked
+  solid::ElasticForce elastic_force;                       ///< div tau
+  solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
+  std::optional<TwoViscosities> two_viscosities;           ///< where they differ
+  std::optional<solid::BodyForce> body_force;              ///< where there is one
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;
@@ -173,10 +174,10 @@ struct Body {
   std::optional<solid::ReferenceMap> memory;     ///< of the undeformed solid, beside psi
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the map's shape
-  vof::HoldScratch hold_scratch;
-  std::vector<Real> trust;  ///< scratch of that
-  Real shape_moved = 0;     ///< volume that the last hold_shape moved, in parts of the solid's
-  vof::Filled filled;       ///< volume and its error at the start
+  vof::HoldScratch hold_scratch;                 ///< scratch
+  std::vector<Real> trust;                       ///< scratch of that
+  Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
+  vof::Filled filled;    ///< volume and its error at the start
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
   std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry

@@ -30,8 +30,11 @@ class EnergyBalance {
   /// Collective. After a step of length dt.
   void add(const Solver& solver, Real dt);
 
+  /// E: kinetic and elastic energy.
   Real stored() const { return stored_; }
+  /// W: the work done.
   Real work() const { return work_; }
+  /// What the scheme has made, as above.
   Real made() const { return made_; }
   /// That in parts of the largest energy that was stored and of the work: what a run may have made
   /// and be right.

@@ -28,7 +28,7 @@ struct Solid {
   Real G = 0;           ///< shear modulus
   Real mu = 0.01;       ///< dynamic viscosity
   std::string name{};   ///< of its columns and fields; may be empty where there is one solid only
-  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  KinematicsKind kinematics = KinematicsKind::log_conformation;  ///< how the strain is tracked
   Vec3 acceleration{};  ///< of a body force that acts on this solid alone
   solid::Law law{};     ///< of its elastic stress
   Real rho = 0;         ///< density; 0: that of the fluid

@@ -11,17 +11,18 @@ namespace fsi {
 /// Scratch of a strain in which the flux takes part (Body::strain_by_flux): the velocity with what
 /// the fluxes tell besides, and its gradient.
 struct StrainByFlux {
+  /// Zero fields; mesh must outlive them.
   explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
-  CellField<Vec3> u;
-  CellField<Tensor> L;
+  CellField<Vec3> u;    ///< velocity
+  CellField<Tensor> L;  ///< its gradient
 };
 
 /// The flow that carries and strains the solids and that they push, at t^n; cell fields owned and
 /// halo.
 struct FlowAround {
-  const CellField<Vec3>& u;
-  const FaceField<Real>& phi;
-  const BoundaryField<Vec3>& u_b;
+  const CellField<Vec3>& u;          ///< velocity
+  const FaceField<Real>& phi;        ///< flux
+  const BoundaryField<Vec3>& u_b;    ///< velocity at the boundary
   const std::vector<char>& open;     ///< [n_boundary] 1 on openings (Momentum::boundary)
   const GradientStencil& u_stencil;  ///< with values where the velocity is given
   PressureStencil& pressure;         ///< of the projection

@@ -29,30 +29,31 @@ namespace fsi {
 
 /// What drives and how the flow is solved.
 struct FlowSetup {
-  Conditions conditions{};
+  Conditions conditions{};              ///< one a patch
   Vec3 axis{1, 0, 0};                   ///< of the mean velocity
   std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
-  int non_orthogonal_correctors = 1;
-  flow::Convection convection = flow::Convection::linear;
+  int non_orthogonal_correctors = 1;    ///< solves for the pressure beyond the first
+  flow::Convection convection = flow::Convection::linear;  ///< face values of the velocity
   /// Force per volume on fluid and solid at x and t; none where empty.
   std::function<Vec3(const Vec3& x, Real t)> body_force{};
 };
 
 /// The unknowns at time t.
 struct State {
+  /// At rest, at t = 0.
   explicit State(const Mesh& mesh) : u(mesh), p(mesh), phi(mesh) {}
-  CellField<Vec3> u;
-  CellField<Real> p;
-  FaceField<Real> phi;  ///< volume flux, divergence-free to the solver's tolerance
-  Real t = 0;
-  std::int64_t step = 0;
+  CellField<Vec3> u;      ///< velocity
+  CellField<Real> p;      ///< pressure, half a step behind u
+  FaceField<Real> phi;    ///< volume flux, divergence-free to the solver's tolerance
+  Real t = 0;             ///< time
+  std::int64_t step = 0;  ///< steps taken since t = 0
 };
 
 /// What the last step took, and what went wrong in this run.
 struct StepReport {
-  int velocity_iterations = 0, pressure_iterations = 0;
-  Real pressure_residual = 0;
-  std::int64_t rejected = 0;                         ///< steps taken back
+  int velocity_iterations = 0, pressure_iterations = 0;  ///< of the linear solvers
+  Real pressure_residual = 0;  ///< norm over the cells of the net flux that the solve left
+  std::int64_t rejected = 0;   ///< steps taken back
   std::map<std::string, std::int64_t> rejections{};  ///< by reason, since the start or restart
   bool held_back = false;  ///< the step is smaller than asked for, after a rejected one
   std::string failure;     ///< why the run cannot go on; empty while it can
@@ -110,33 +111,48 @@ class Solver {
   /// kinematics watches it.
   Real strain_dt(Real strain) const;
 
+  /// The mesh.
   const Mesh& mesh() const { return mesh_; }
+  ///@{
+  /// The unknowns of the flow.
   State& state() { return state_; }
   const State& state() const { return state_; }
+  ///@}
   /// The solids, in the order they were put in.
   const std::deque<Body>& bodies() const { return bodies_; }
+  /// The same, to change.
   std::deque<Body>& bodies() { return bodies_; }
   /// The first of them; none in a scene without.
   const Body* body() const { return bodies_.empty() ? nullptr : &bodies_.front(); }
+  /// The same, to change.
   Body* body() { return bodies_.empty() ? nullptr : &bodies_.front(); }
   /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
   Real overlap() const { return separation_ ? separation_->overlap() : 0; }
+  /// Densities and viscosities.
   const Physics& physics() const { return physics_; }
   /// None where all solids are as dense as the fluid.
   const flow::Density* density() const { return heavy_ ? &heavy_->density : nullptr; }
+  ///@{
+  /// The last step.
   StepReport& report() { return report_; }
   const StepReport& report() const { return report_; }
+  ///@}
+  /// Wall time of the calls.
   const Profile& profile() const { return profile_; }
+  /// Velocity at the boundary.
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
+  /// Pressure at the boundary.
   const BoundaryField<Real>& p_b() const { return p_b_; }
   /// Viscosity at the faces, of the last step.
   const FaceField<Real>& mu() const { return mu_; }
+  /// Weights of the faces.
   const FaceWeights& weights() const { return weights_; }
   /// Force per volume on fluid and solid; empty where there is none.
   const std::function<Vec3(const Vec3&, Real)>& driving_force() const { return driving_force_; }
   /// What is given at an opening in the middle of the last step, behind its load's answer.
   /// Errors: Error{input} where that patch is none.
   Real opening_pressure(const std::string& patch) const;
+  /// Conditions by patch, in the order of the mesh.
   const std::vector<Condition>& conditions() const { return conditions_; }
   /// Velocity gradient at the state's time; collective.
   const CellField<Tensor>& velocity_gradient();

@@ -31,6 +31,7 @@ struct AdvectReport {
 
 /// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
 struct AdvectScratch {
+  /// mesh must outlive it.
   explicit AdvectScratch(const Mesh& mesh);
 
   FaceField<Real> solid;     ///< volume of solid through each face in the last step, from P to N
@@ -38,6 +39,7 @@ struct AdvectScratch {
   std::vector<Index> full;   ///< other faces inside the solid
   std::vector<Index> cells;  ///< owned cells of `faces`
   std::vector<Index> rim;    ///< internal faces with a halo cell
+  /// [n_faces], [n_cells] whether the item is in a list.
   std::vector<std::uint8_t> face_marked, cell_marked;
   CellField<Real> speed;  ///< of the interface along n_hat
   CellField<Real> share;  ///< of a cell's outflow changed by a round of redistribution
@@ -48,8 +50,8 @@ struct AdvectScratch {
 /// time dt. Where cells would leave [0, 1] their outflow is raised (lowered) until they do not; the
 /// excess goes along with the flow, no volume is clipped. With a divergence-free phi the sum of
 /// alpha V is kept to round-off. The amount that div phi != 0 and fractions within 1e-12 of 0 or 1
-/// would add is given back to the cells of the interface, each in proportion to
-/// V alpha (1 - alpha): the sum stays and full cells stay full.
+/// would add is given back to the cells of the interface, each in proportion to V alpha (1 -
+/// alpha). The sum stays, and full cells stay full.
 /// Through boundary faces solid can leave; what enters there is fluid.
 /// alpha, u: owned and halo set; interface: of this alpha. Courant number (dt / 2V) sum |phi| <= 1.
 /// On return owned cells and halo of alpha are set.

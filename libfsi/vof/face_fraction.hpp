@@ -25,7 +25,7 @@ void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    std::span<const Index> faces);
 
 /// The part of solid on the line between the centres of the two cells of a face, each half by the
-/// plane of its own cell; where neither has one, what interface there is lies on the face. Over a
+/// plane of its own cell. Where neither has one, what interface there is lies on the face. Over a
 /// flat surface its sum along any way from cell to cell depends on the ends alone, which that of
 /// the prism does on quadrilaterals and hexahedra in line with it. Boundary faces: from the centre
 /// to the face. Sets the listed faces.

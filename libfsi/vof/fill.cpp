@@ -86,7 +86,7 @@ struct Piece {
 };
 
 /// The piece between these corners. As |f(x) - f_i| <= |x - x_i|, f(x) differs from the mean of f_i
-/// by at most the mean of |x - x_i|, which is convex in x and so largest in a corner: where the
+/// by at most the mean of |x - x_i|, which is convex in x and so largest in a corner. Where the
 /// mean of f_i is larger than that, the piece is whole or empty.
 template <class Rule>
 Piece<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners>& x,

@@ -21,13 +21,14 @@ struct ShapeMap {
 
 /// Scratch of `hold_shape`; grows with the interface.
 struct HoldScratch {
+  /// mesh must outlive it.
   explicit HoldScratch(const Mesh& mesh) : cell(mesh.dim) {}
 
-  std::vector<Index> cells;                // near the mapped surface
-  std::vector<geometry::Plane> planes;     // of that surface, about the cell's centre
-  std::vector<Real> weight, area, change;  // beside `cells`
-  geometry::Polytope cell;
-  Vec3 laps;  ///< periods that the solid went through
+  std::vector<Index> cells;                ///< near the mapped surface
+  std::vector<geometry::Plane> planes;     ///< of that surface, about the cell's centre
+  std::vector<Real> weight, area, change;  ///< beside `cells`
+  geometry::Polytope cell;                 ///< scratch
+  Vec3 laps;                               ///< periods that the solid went through
 };
 
 /// Collective. Moves the fractions toward those of the solid whose surface is where the map puts

@@ -18,6 +18,7 @@ namespace fsi::vof {
 /// where the plane lies along faces, elsewhere off by some hundredths of a cell to either side.
 class KinkProfile {
  public:
+  /// mesh must outlive it.
   explicit KinkProfile(const Mesh& mesh)
       : normal(mesh), solid_side(mesh), fluid_side(mesh), mesh_(mesh) {}
 

@@ -13,9 +13,10 @@ namespace fsi::vof {
 /// A divergence-free velocity u(x) factor(t) and a vector potential, u = curl A (2-D: the stream
 /// function A.z). period: at its end the interface is back where it started.
 struct Motion {
+  /// Velocity and vector potential at x.
   std::function<Vec3(const Vec3&)> u, potential;
-  std::function<Real(Real t)> factor;
-  Real period = 1;
+  std::function<Real(Real t)> factor;  ///< of both
+  Real period = 1;                     ///< time
 };
 
 /// Names of the motions that `motion` knows.

@@ -20,6 +20,7 @@ struct Piece {
 
 /// The interface in all cells of this rank, halo included.
 struct Interface {
+  /// No planes.
   explicit Interface(const Mesh& mesh) : piece(mesh) {}
   std::vector<Index> cells;  ///< owned cells with a plane, ascending
   CellField<Piece> piece;    ///< owned and halo cells
@@ -28,7 +29,7 @@ struct Interface {
 /// When the normals count as settled; the defaults are those of [Scheufler19]. Planes are exact in
 /// the limit of many rounds; where a film is thinner than the stencil more rounds make it worse.
 struct ReconstructAccuracy {
-  int max_rounds = 5;
+  int max_rounds = 5;       ///< rounds at most
   Real turn = 1e-6;         ///< mean over the interface of 1 - cos of what a round turns them
   Real turn_of_bend = 0.1;  ///< the same as a part of the mean 1 - cos between neighbours' normals
 };
@@ -41,6 +42,7 @@ struct ReconstructReport {
 
 /// Scratch of `reconstruct`, made once; grows with the interface, never shrinks.
 struct ReconstructScratch {
+  /// mesh must outlive it.
   explicit ReconstructScratch(const Mesh& mesh);
 
   Csr halo_neighbours;               ///< [n_cells - n_owned] owned cells that touch a halo cell
@@ -50,7 +52,7 @@ struct ReconstructScratch {
   std::vector<std::uint8_t> marked;  ///< [n_owned] whether the cell is in `near`
   std::vector<SymTensor> fit;        ///< [cells] inverse moments of the least-squares gradient
   std::vector<Vec3> normal;          ///< [cells]
-  geometry::Polytope cell;
+  geometry::Polytope cell;           ///< scratch
 };
 
 /// Collective. plicRDF [Scheufler19]: normals from a least-squares gradient of alpha, then

@@ -14,11 +14,13 @@ namespace fsi::vof {
 /// more than 1 by the error of the planes.
 class Separation {
  public:
+  /// bodies: count of solids.
   Separation(const Mesh& mesh, std::size_t bodies);
 
   /// Collective. In cells where S = sum_i alpha_i > 1 each body gives up the part alpha_i / S of
-  /// the excess to the cells across its faces that hold some of this body, in proportion to their
-  /// room 1 - S, no more than fills them; at most a few rounds of that. What finds no room stays,
+  /// the excess to the cells across its faces that hold some of this body. It goes in proportion to
+  /// their room 1 - S, and no more than fills them, in a few rounds at most. What finds no room
+  /// stays,
   /// and `overlap` tells how much. The sum of alpha_i V stays to round-off. cells: owned, with all
   /// those in which two bodies meet, none twice. alphas: owned and halo, before and after. Returns
   /// whether anything moved.

@@ -57,6 +57,7 @@ class Law {
     check_at_rest();
   }
 
+  /// Its name.
   const std::string& name() const { return name_; }
   /// Whether T is B itself and its modulus B's largest eigenvalue: nothing is to be applied.
   bool B_itself() const { return B_itself_; }
@@ -68,9 +69,9 @@ class Law {
     CellField<SymTensor>& T;        ///< on return set on `cells`; zero where B is
     CellField<Real>& modulus;       ///< likewise
     const CellField<SymTensor>& B;  ///< of a body's cells, zero where there is none
-    const CellField<Real>& alpha;
-    std::span<const Index> cells;
-    Real own;  ///< cells with alpha of at least that know their strain
+    const CellField<Real>& alpha;   ///< fraction of the solid
+    std::span<const Index> cells;   ///< where B is set
+    Real own;                       ///< cells with alpha of at least that know their strain
   };
   /// Sets T and modulus. Returns whether B was within the law's range in this rank's cells that
   /// know their strain. In others, whose B goes on from these, a B beyond the range is replaced by

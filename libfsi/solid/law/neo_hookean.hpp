@@ -8,9 +8,11 @@ namespace fsi::solid {
 
 /// W = (I1 - 3) / 2 in units of G:   tau = G dev(B)                       [Matsumiya25] (8)
 struct NeoHookean {
-  static constexpr const char* name = "neo_hookean";
+  static constexpr const char* name = "neo_hookean";  ///< word of -solid_law
+  /// It has no parameter.
   void read(Options& /*options*/, const std::string& /*option*/) {}
 
+  /// W(I1, I2).
   Jet operator()(const Jet& I1, const Jet& /*I2*/) const { return (I1 - 3) * 0.5; }
 };
 
