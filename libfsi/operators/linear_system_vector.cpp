@@ -4,24 +4,27 @@
 #include <petscksp.h>
 
 #include <algorithm>
+#include <exception>
 #include <string>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/linear_system_options.hpp"
+#include "libfsi/operators/stiff_sweep.hpp"
 
 namespace fsi {
 
 namespace {
 
-/// What the matrix-vector product works on.
+/// What the matrix-vector product and the preconditioner work on.
 struct Operator {
   const Mesh& mesh;
   VectorMatrix matrix;
   std::vector<Index> cut;    // internal faces with a cell of another rank, ascending
   std::vector<Real> around;  // [n_cells * dim] of a direction the halo; one rank needs none
+  StiffSweep sweep;          // of the matrix, where no other preconditioner is asked for
 
-  explicit Operator(const Mesh& m) : mesh(m), matrix(m) {
+  explicit Operator(const Mesh& m) : mesh(m), matrix(m), sweep(m) {
     for (Index f = 0; f < m.n_internal; ++f)
       if (m.owner[f] >= m.n_owned || m.neighbour[f] >= m.n_owned) cut.push_back(f);
     if (ranks() > 1) around.resize(static_cast<std::size_t>(m.n_cells * m.dim));
@@ -116,6 +119,51 @@ PetscErrorCode copy_diagonal(Mat shell, Vec diagonal) noexcept {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode set_up_sweep(PC pc) noexcept {
+  PetscFunctionBegin;
+  Operator* op = nullptr;
+  PetscCall(PCShellGetContext(pc, &op));
+  try {
+    op->sweep.renew(op->matrix);
+  } catch (const std::exception&) {
+    PetscFunctionReturn(PETSC_ERR_MEM);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode apply_sweep(PC pc, Vec r, Vec z) noexcept {
+  PetscFunctionBegin;
+  Operator* op = nullptr;
+  const PetscScalar* from = nullptr;
+  PetscScalar* to = nullptr;
+  PetscCall(PCShellGetContext(pc, &op));
+  PetscCall(VecGetArrayRead(r, &from));
+  PetscCall(VecGetArrayWrite(z, &to));
+  op->sweep.apply(to, from);
+  PetscCall(VecRestoreArrayRead(r, &from));
+  PetscCall(VecRestoreArrayWrite(z, &to));
+  PetscFunctionReturn(0);
+}
+
+void set_sweep(PC pc, void* context) {
+  FSI_PETSC(PCSetType(pc, PCSHELL));
+  FSI_PETSC(PCShellSetName(pc, "Gauss-Seidel in stiff cells, Jacobi elsewhere"));
+  FSI_PETSC(PCShellSetContext(pc, context));
+  FSI_PETSC(PCShellSetSetUp(pc, set_up_sweep));
+  FSI_PETSC(PCShellSetApply(pc, apply_sweep));
+}
+
+/// Whether the type that the options leave is one that works without an assembled matrix.
+void check_type(PC pc, const std::string& name) {
+  PCType type = nullptr;
+  FSI_PETSC(PCGetType(pc, &type));
+  for (const std::string known : {PCSHELL, PCJACOBI, PCNONE})
+    if (type == known) return;
+  require(false, "option -" + name + "_pc_type: \"" + type +
+                     "\" needs an assembled matrix, which this system does not have; there are: "
+                     "shell (the default), jacobi, none");
+}
+
 void make_shell(Mat* shell, PetscInt n, void* context) {
   FSI_PETSC(MatCreateShell(comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, context, shell));
   FSI_PETSC(MatShellSetOperation(*shell, MATOP_MULT, reinterpret_cast<void (*)()>(apply)));
@@ -143,16 +191,11 @@ VectorSystem::VectorSystem(const Mesh& mesh, const std::string& name, Real relat
   FSI_PETSC(KSPSetInitialGuessNonzero(h.solver, PETSC_TRUE));
   PC pc = nullptr;
   FSI_PETSC(KSPGetPC(h.solver, &pc));
-  FSI_PETSC(PCSetType(pc, PCJACOBI));
+  set_sweep(pc, &h.op);
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, 500));
   check_solver_options(name + "_");
   FSI_PETSC(KSPSetFromOptions(h.solver));
-  PCType type = nullptr;
-  FSI_PETSC(PCGetType(pc, &type));
-  require(std::string(type) == PCJACOBI || std::string(type) == PCNONE,
-          "option -" + name + "_pc_type: \"" + type +
-              "\" needs an assembled matrix, which this system does not have; there are: jacobi, "
-              "none");
+  check_type(pc, name);
 }
 
 VectorSystem::~VectorSystem() = default;
@@ -162,7 +205,7 @@ VectorSystem& VectorSystem::operator=(VectorSystem&&) noexcept = default;
 VectorMatrix& VectorSystem::matrix() { return handles_->op.matrix; }
 
 void VectorSystem::renewed() {
-  // Tells the preconditioner, which otherwise keeps the first diagonal.
+  // Tells the preconditioner, which otherwise keeps the first values.
   FSI_PETSC(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(handles_->shell)));
 }
 

@@ -21,8 +21,8 @@ struct VectorMatrix {
   std::vector<Real> off_diagonal;  ///< [n_internal] a_PN = a_NP
 };
 
-/// Conjugate gradients with the diagonal as preconditioner, for a matrix close to its diagonal that
-/// changes every step. The matrix is applied face by face, never assembled.
+/// Conjugate gradients for a matrix that changes every step and is close to its diagonal in most
+/// cells, preconditioned by StiffSweep. The matrix is applied face by face, never assembled.
 class VectorSystem {
  public:
   /// Collective. The name is the option prefix: "u" reads -u_ksp_type and so on. Errors:

@@ -31,7 +31,7 @@ class LogConformation {
   /// ones feed to waves along the surface viscosity takes away, at a part 1 / reynolds of their
   /// pace, reynolds that of the wave in a cell: measured on a disc at rest, 2 at 300, 3 at 30.
   static constexpr Real elastic_number(Real reynolds) {
-    return std::min(2.5, 1.75 + 20 / reynolds);
+    return std::min(2.5, 1.75 + 15 / reynolds);
   }
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;

@@ -1,6 +1,7 @@
 #pragma once
 // A bound for the strain of the solid's outermost cells: the work that its force takes up.
 
+#include <algorithm>
 #include <cmath>
 
 #include "libfsi/field/field.hpp"
@@ -26,15 +27,16 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 
-/// L - chi T,  chi = max(0, -T : excess - |T| |D| / 10) / (T : T): gone is the part of L by which
-/// the cell would take up more energy than the force takes from the flow. A tenth of the largest
-/// power that D allows is what M of a wave of 15 cells and more is off by.
+/// L - chi T,  chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|: gone is the part of
+/// L by which the cell would take up more energy than the force takes from the flow. A tenth of
+/// |T| |D|, the largest power of D, is what M of a wave of 15 cells and more is off by; with more
+/// than |D| what is at rest would follow the noise of u around it.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {
   const Tensor t{T.xx, T.xy, T.xz, T.xy, T.yy, T.yz, T.xz, T.yz, T.zz};
   constexpr Real allowed = 0.1;
   const Tensor D = 0.5 * (L + transpose(L));
-  const Real square = power(T, t);
-  const Real made = -power(T, excess) - allowed * std::sqrt(square * trace(dot(D, D)));
+  const Real square = power(T, t), most = std::sqrt(square * trace(dot(D, D)));
+  const Real made = std::min(-power(T, excess) - allowed * most, most);
   return made > 0 && square > 0 ? L + (-made / square) * t : L;
 }
 

@@ -108,6 +108,7 @@ OPTIONS = [
     option("shear between sides that are not joined", "", "left", driver="fsi-shear", mesh="shear"),
     option("solver unknown", "-p_ksp_type conjugat", "-p_ksp_type", "conjugat", "cg"),
     option("preconditioner unknown", "-p_pc_type hypr", "-p_pc_type", "hypr", "hypre"),
+    option("preconditioner of assembled matrices", "-u_pc_type sor", "-u_pc_type", "sor", "jacobi"),
     option("solver without that norm", "-p_ksp_type minres", "minres", "norm"),
     option("solver's tolerance NaN", "-p_ksp_rtol nan", "-p_ksp_rtol", "nan", "0 < value < 1"),
     option("solver's tolerance no number", "-u_ksp_rtol abc", "-u_ksp_rtol", "abc", "0 < value < 1"),

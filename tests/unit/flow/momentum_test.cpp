@@ -3,6 +3,7 @@
 #include "libfsi/flow/momentum.hpp"
 
 #include <gtest/gtest.h>
+#include <petscsys.h>
 
 #include <cmath>
 #include <complex>
@@ -16,6 +17,14 @@ namespace {
 constexpr Index n = 16;
 constexpr Real rho = 2, h = 1.0 / n, k = 2 * std::numbers::pi;
 using Complex = std::complex<Real>;
+
+/// While this lives, velocity systems that are made are solved to round-off.
+struct Exactly {
+  Exactly() { PetscOptionsSetValue(nullptr, "-u_ksp_rtol", "1e-15"); }
+  Exactly(const Exactly&) = delete;
+  Exactly& operator=(const Exactly&) = delete;
+  ~Exactly() { PetscOptionsClearValue(nullptr, "-u_ksp_rtol"); }
+};
 
 /// A periodic box, u = Im(a exp(i k x)) along y, and what the predictor reads.
 struct Wave {
@@ -53,6 +62,7 @@ struct Wave {
   std::vector<Tensor> L_f;
   FaceField<Real> phi, mu, kappa;
   BoundaryField<Vec3> u_b;
+  Exactly exactly;  // before momentum, whose system reads the tolerance
   Momentum momentum;
 };
 
