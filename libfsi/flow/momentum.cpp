@@ -48,7 +48,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       rhs_(mesh),
       w_(static_cast<std::size_t>(mesh.n_cells * mesh.dim)),
       b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
-      system_(mesh, "u", 1e-5) {
+      system_(mesh, "u", 1e-7) {
   implicit_.assign(boundary_.open.size(), Vec3{1, 1, 1});
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {

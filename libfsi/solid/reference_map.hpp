@@ -38,7 +38,7 @@ class ReferenceMap {
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;
   /// The longest step in units of the time in which the elastic wave passes a cell.
-  static constexpr Real elastic_number(Real /*reynolds*/) { return 1.5; }
+  static constexpr Real elastic_number = 1.5;
 
   /// xi = x.
   void set_undeformed(const CellField<Real>& alpha);

@@ -27,8 +27,8 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 
-/// L - chi T,  chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|: gone is the part of
-/// L by which the cell would take up more energy than the force takes from the flow. A tenth of
+/// L - chi T,  chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|: gone is the part
+/// of L by which the cell would take up more energy than the force takes from the flow. A tenth of
 /// |T| |D|, the largest power of D, is what M of a wave of 15 cells and more is off by; with more
 /// than |D| what is at rest would follow the noise of u around it.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {

@@ -98,12 +98,9 @@ struct Body {
   Real time_offset() const {
     return std::visit([](const auto& k) { return k.time_offset; }, kinematics);
   }
-  /// The longest step where the elastic wave passes a cell in `time`.
-  Real elastic_dt(Real time) const {
-    constexpr Real not_bounded = 1.5;  // by work: measured on stiff discs
-    if (two_viscosities) return time * not_bounded;
-    const Real reynolds = G * time / mu;  // of the wave: rho c h / mu
-    return time * std::visit([&](const auto& k) { return k.elastic_number(reynolds); }, kinematics);
+  /// The longest step in units of the time in which the elastic wave passes a cell.
+  Real elastic_number() const {
+    return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
   }
   /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
   /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches

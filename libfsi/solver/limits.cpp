@@ -50,7 +50,7 @@ Real Solver::elastic_dt() const {
   Real least = std::numeric_limits<Real>::max();
   for (const Body& body : bodies_) {
     const Real part = body.rho != physics_.rho ? two_densities : 1;
-    least = std::min(least, part * body.elastic_dt(elastic_time(body)));
+    least = std::min(least, part * body.elastic_number() * elastic_time(body));
   }
   return least;
 }

@@ -122,7 +122,7 @@ TEST(LawInStep, StiffnessFollows) {
     one.solver.body()->set_B([&](const Vec3&) { return B; });
     return one.solver.elastic_dt();
   };
-  const auto expected = [](Real modulus) { return 2.5 / 16 * std::sqrt(1 / (0.1 * modulus)); };
+  const auto expected = [](Real modulus) { return 1.5 / 16 * std::sqrt(1 / (0.1 * modulus)); };
   EXPECT_NEAR(elastic_dt({}), expected(2), 1e-12);
   EXPECT_NEAR(elastic_dt(solid::Law(solid::MooneyRivlin{0.5})), expected(2), 1e-12);
   // Gent: 2 W_1 = J / (J - I1 + 3) = 2, 4 W_11 = 2 J / (J - I1 + 3)^2 = 8, (b_3 - b_1)^2 = 2.25;
