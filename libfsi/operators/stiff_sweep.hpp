@@ -14,6 +14,7 @@ namespace fsi {
 /// coefficients exceed in sum a share of its diagonal.
 class StiffSweep {
  public:
+  /// Of no matrix yet. mesh must outlive it.
   explicit StiffSweep(const Mesh& mesh);
 
   /// The matrix has new values. Allocates only where more cells are stiff than ever.

@@ -241,7 +241,7 @@ void put_solids(Solver& solver, const Case& setup) {
     const Body& body = solver.bodies().back();
     if (rank() == 0 && s.solid.memory && !body.held && body.extended())
       std::printf(
-          "%s: no memory of its shape on triangles, tetrahedra and prisms: a shape under load "
+          "%s: no memory of its shape on triangles and tetrahedra: a shape under load "
           "creeps\n",
           s.shape_name.c_str());
   }
