@@ -90,21 +90,31 @@ void multiply(Real* y, Operator& op, const Real* x) {
   }
 }
 
-PetscErrorCode apply(Mat shell, Vec x, Vec y) noexcept {
+/// work(y, x) on the values of both.
+template <class Work>
+PetscErrorCode on_values(Vec y, Vec x, const Work& work) noexcept {
   PetscFunctionBegin;
-  Operator* op = nullptr;
   const PetscScalar* from = nullptr;
   PetscScalar* to = nullptr;
-  PetscCall(MatShellGetContext(shell, &op));
   PetscCall(VecGetArrayRead(x, &from));
   PetscCall(VecGetArrayWrite(y, &to));
   try {
-    (op->mesh.dim == 2 ? multiply<2> : multiply<3>)(to, *op, from);
+    work(to, from);
   } catch (const Error&) {
     PetscFunctionReturn(PETSC_ERR_LIB);
   }
   PetscCall(VecRestoreArrayRead(x, &from));
   PetscCall(VecRestoreArrayWrite(y, &to));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode apply(Mat shell, Vec x, Vec y) noexcept {
+  PetscFunctionBegin;
+  Operator* op = nullptr;
+  PetscCall(MatShellGetContext(shell, &op));
+  PetscCall(on_values(y, x, [&](Real* to, const Real* from) {
+    (op->mesh.dim == 2 ? multiply<2> : multiply<3>)(to, *op, from);
+  }));
   PetscFunctionReturn(0);
 }
 
@@ -134,14 +144,8 @@ PetscErrorCode set_up_sweep(PC pc) noexcept {
 PetscErrorCode apply_sweep(PC pc, Vec r, Vec z) noexcept {
   PetscFunctionBegin;
   Operator* op = nullptr;
-  const PetscScalar* from = nullptr;
-  PetscScalar* to = nullptr;
   PetscCall(PCShellGetContext(pc, &op));
-  PetscCall(VecGetArrayRead(r, &from));
-  PetscCall(VecGetArrayWrite(z, &to));
-  op->sweep.apply(to, from);
-  PetscCall(VecRestoreArrayRead(r, &from));
-  PetscCall(VecRestoreArrayWrite(z, &to));
+  PetscCall(on_values(z, r, [&](Real* to, const Real* from) { op->sweep.apply(to, from); }));
   PetscFunctionReturn(0);
 }
 

@@ -27,8 +27,8 @@ class LogConformation {
   /// Where in a step the solid stands when the momentum equation is solved.
   static constexpr Real time_offset = 0.5;
   /// The longest step in units of the time in which the elastic wave passes a cell. Waves along the
-  /// surface grow beyond 2, at 300 mu_s = rho c h; at 2 the elastic energy of a ring that bends is
-  /// off by a fifth.
+  /// surface grow beyond 2 where 300 mu_s = rho c h, and at 2 the elastic energy of a ring in a
+  /// pipe is a fifth above that of short steps.
   static constexpr Real elastic_number = 1.5;
   /// Whether B is known around the solid as well.
   static constexpr bool extended = true;

@@ -10,6 +10,9 @@
 namespace fsi::solid {
 namespace {
 
+/// (L - L^T) / 2.
+Tensor spin(const Tensor& L) { return 0.5 * (L + -1.0 * transpose(L)); }
+
 /// sin^2 of the angle between d and the normal m; 1 without one.
 Real part_along(const Vec3& m, const Vec3& d) {
   const Real across = dot(m, d);
@@ -86,13 +89,13 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
       if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
     }
-    // e g (u_N - u_P - L_f . d), where it takes energy from u_N - u_P - W . d, W the spin of L_f
+    // e g (u_N - u_P - L_f . d), of one side only where it takes energy from u_N - u_P - W . d, W
+    // the spin
     const Real w = part_of_N(solid, weights, mesh_, f);
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
-    const Tensor spin = 0.5 * (L_f + -1.0 * transpose(L_f));
     const Vec3 rise = solid.u[N] - solid.u[P];
     const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
-    if (solid.one_sided && dot(flux, rise - dot(spin, mesh_.d[f])) < 0) continue;
+    if (solid.one_sided && dot(flux, rise - dot(spin(L_f), mesh_.d[f])) < 0) continue;
     force[P] += (1 / mesh_.V[P]) * flux;
     force[N] -= (1 / mesh_.V[N]) * flux;
   }

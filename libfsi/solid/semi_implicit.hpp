@@ -61,8 +61,8 @@ struct ElasticTerms {
 /// the cell's own side (sided) kappa grows by what makes all of e stable, i = e / 1.5 - kappa - m
 /// where that is positive; otherwise mu_s counts as 0 and u* stands in place of the first u^n.
 /// Either costs an error of first order in dt. Without `kink` the mean is that of the face.
-/// A face where the flux would give energy to the strain, its part along u_N - u_P less the spin of
-/// avg L times d negative, has none: L of one side, or fitted, is no mean of the faces' gradients.
+/// With L of one side a face has no flux that would give energy to the strain, its part along u_N -
+/// u_P less the spin of avg L times d negative: such an L is no mean of the faces' gradients.
 /// A map on triangles and tetrahedra needs twice the root.
 class SemiImplicitElasticity {
  public:

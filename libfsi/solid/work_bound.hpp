@@ -29,8 +29,9 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
 
 /// L - chi T,  chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|: gone is the part
 /// of L by which the cell would take up more energy than the force takes from the flow. A tenth of
-/// |T| |D|, the largest power of D, is what M of a wave of 15 cells and more is off by; with more
-/// than |D| what is at rest would follow the noise of u around it.
+/// |T| |D|, the largest power of D, is left, since M is of first order there: so the strain of a
+/// resolved slab is as exact as without the bound, and with twice as much waves grow on stiff
+/// triangles. With more than |D| what is at rest would follow the noise of u around it.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {
   const Tensor t{T.xx, T.xy, T.xz, T.xy, T.yy, T.yz, T.xz, T.yz, T.zz};
   constexpr Real allowed = 0.1;

@@ -18,7 +18,8 @@ namespace {
 constexpr Tensor gradient_2d{0.3, -1.1, 0, 0.7, -0.3, 0, 0, 0, 0};
 constexpr Tensor gradient_3d{0.3, -1.1, 0.4, 0.7, 0.2, -0.6, 0.9, 0.5, -0.5};
 
-Real largest(const Tensor& t) { return std::sqrt(trace(dot(t, transpose(t)))); }
+/// |t|, the root of t : t.
+Real size(const Tensor& t) { return std::sqrt(trace(dot(t, transpose(t)))); }
 
 /// Solid below y = top, whose surface cuts cells, and what a cell's strain is bounded by.
 struct HalfSolid {
@@ -70,7 +71,7 @@ TEST(WorkBound, NoExcessInALinearFlow) {
       for (Index c = 0; c < half.mesh.n_cells; ++c) half.u[c] = dot(L, half.mesh.C[c]);
       Real worst = 0;
       for (Index c = 0; c < half.mesh.n_owned; ++c)
-        worst = std::max(worst, largest(half.excess(L, c)));
+        worst = std::max(worst, size(half.excess(L, c)));
       EXPECT_LE(global_max(worst), 1e-12);
     }
 }
@@ -132,7 +133,7 @@ TEST(WorkBound, TakesOutWhatIsMade) {
   ASSERT_LT(solid::power(T, excess), 0);
   const Tensor bounded = solid::bound_by_work(L, excess, T);
   const Tensor D = 0.5 * (L + transpose(L)), t{0.7, -0.4, 0.2, -0.4, 0.1, 0.5, 0.2, 0.5, -0.8};
-  const Real allowed = 0.1 * largest(t) * largest(D);
+  const Real allowed = 0.1 * size(t) * size(D);
   EXPECT_NEAR(solid::power(T, bounded), solid::power(T, L + excess) + allowed, 1e-14);
   EXPECT_NEAR(trace(bounded), trace(L), 1e-14);
   EXPECT_EQ(solid::bound_by_work(L, -1.0 * excess, T), L);
