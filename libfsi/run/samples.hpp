@@ -32,7 +32,7 @@ struct Row {
 };
 
 /// The row at time t from rows before and after it: an error of second order in their distance. The
-/// columns nx, ny, nz stay a unit vector and `angle` its own. A value of `before` that is not
+/// columns nx, ny, nz and lx, ly, lz stay unit vectors, `angle` and `long_angle` their own. A value of `before` that is not
 /// finite counts as unknown: that of `after` is taken.
 std::vector<Real> between(const Row& before, const Row& after, Real t);
 
