@@ -151,6 +151,7 @@ Cut cut_polyhedron(const Polytope& cell, const Plane& plane) {
   for (std::size_t i = 0; i < x.size(); ++i) q[i] = dot(plane.n, x[i]);
   bool started = false;
   Vec3 origin, moment;
+  SymTensor second;
   Real twice = 0;
   for (const Polytope::Facet& f : cell.facets()) {
     const int below = (q[f[0]] < plane.s) + (q[f[1]] < plane.s) + (q[f[2]] < plane.s);
@@ -162,12 +163,15 @@ Cut cut_polyhedron(const Polytope& cell, const Plane& plane) {
       (q[a] < plane.s ? leave : enter) = passing(x[a], x[b], q[a], q[b], plane.s);
     }
     if (!started) origin = enter, started = true;
-    const Real area = dot(plane.n, cross(enter - origin, leave - origin));
+    const Vec3 p = enter - origin, r = leave - origin;
+    const Real area = dot(plane.n, cross(p, r));
     twice += area;
-    moment += area * ((enter - origin) + (leave - origin));
+    moment += area * (p + r);
+    second += area * (square(p) + square(r) + square(p + r));
   }
   if (!(twice > 0)) return {};
-  return {twice / 2, origin + moment / (3 * twice)};
+  const Vec3 centre = moment / (3 * twice);
+  return {twice / 2, origin + centre, 1 / (12 * twice) * second - square(centre)};
 }
 
 /// 2-D: along the tangent t of the cut, length = sum of t where edges lead into the part below less
@@ -186,7 +190,8 @@ Cut cut_polygon(const Polytope& cell, const Plane& plane) {
     moment += sign * t * t / 2;
   }
   if (!(length > 0)) return {};
-  return {length, plane.s * plane.n + moment / length * tangent};
+  return {length, plane.s * plane.n + moment / length * tangent,
+          length * length / 12 * square(tangent)};
 }
 
 }  // namespace

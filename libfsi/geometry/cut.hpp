@@ -39,10 +39,11 @@ struct Plane {
   Real s = 0;  ///< its distance from the origin along n
 };
 
-/// Where a plane cuts a cell: area (length in 2-D) and centroid.
+/// Where a plane cuts a cell: area (length in 2-D), centroid and extent.
 struct Cut {
-  Real area = 0;  ///< length in 2-D
-  Vec3 centre;    ///< its centroid
+  Real area = 0;     ///< length in 2-D
+  Vec3 centre;       ///< its centroid
+  SymTensor spread;  ///< mean of r r over it, r from the centroid
 };
 
 /// A polygon (2-D, in the plane z = 0) or polyhedron, given by its boundary: segments or triangles

@@ -74,15 +74,15 @@ Real courant_number(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const
   return global_max(largest);
 }
 
-/// U_n = n . u at the centre of the plane.
-void interface_speed(const Interface& interface, const CellField<Vec3>& u, const Mesh& mesh,
-                     AdvectScratch& s) {
+/// u at the centre of the plane.
+void interface_velocity(const Interface& interface, const CellField<Vec3>& u, const Mesh& mesh,
+                        AdvectScratch& s) {
   for (const Index c : interface.cells) {
     const Piece& p = interface.piece[c];
     const Tensor L = slope_at(u, inverse_moments(mesh, c), mesh, c);
-    s.speed[c] = dot(p.n_hat, u[c] + dot(L, p.centre - mesh.C[c]));
+    s.velocity[c] = u[c] + dot(L, p.centre - mesh.C[c]);
   }
-  mesh.halo.update(s.speed);
+  mesh.halo.update(s.velocity);
 }
 
 void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
@@ -96,9 +96,15 @@ void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
       continue;
     }
     const Piece& p = interface.piece[c];
+    if (!(p.area > 0)) {
+      s.solid[f] = v * std::clamp(alpha[c], Real{0}, Real{1});
+      continue;
+    }
     // dV = phi integral over dt of A(t) / A   [Roenby16]
-    s.solid[f] = v * (p.area > 0 ? swept_part(mesh, f, c, p, 0, s.speed[c] * dt)
-                                 : std::clamp(alpha[c], Real{0}, Real{1}));
+    const Vec3 way = dt * s.velocity[c];
+    const Real along = dot(p.n_hat, way);
+    s.solid[f] = v * (bends(mesh, c) ? swept_part(mesh, f, c, p, s.bend[c], 0.5 * way, 0, along)
+                                     : swept_part(mesh, f, c, p, 0, along));
   }
 }
 
@@ -175,14 +181,18 @@ AdvectScratch::AdvectScratch(const Mesh& mesh)
       rim(faces_between_ranks(mesh)),
       face_marked(static_cast<std::size_t>(mesh.n_faces), none),
       cell_marked(static_cast<std::size_t>(mesh.n_owned), 0),
-      speed(mesh),
+      velocity(mesh),
+      any_bends(any_cell_bends(mesh)),
+      bend(mesh),
+      cell(mesh.dim),
       share(mesh) {}
 
 AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const FaceField<Real>& phi,
                     const CellField<Vec3>& u, Real dt, const Mesh& mesh, AdvectScratch& s) {
   clear(s);
   find_faces(alpha, mesh, s);
-  interface_speed(interface, u, mesh, s);
+  interface_velocity(interface, u, mesh, s);
+  if (s.any_bends) set_bend(s.bend, interface, mesh, s.cell);
   solid_fluxes(alpha, interface, phi, dt, mesh, s);
   AdvectReport report;
   report.courant = courant_number(phi, dt, mesh, s);

@@ -7,6 +7,7 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
+#include "libfsi/vof/bend.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi::vof {
@@ -31,7 +32,7 @@ struct AdvectReport {
 
 /// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
 struct AdvectScratch {
-  /// mesh must outlive it.
+  /// Collective. mesh must outlive it.
   explicit AdvectScratch(const Mesh& mesh);
 
   FaceField<Real> solid;     ///< volume of solid through each face in the last step, from P to N
@@ -41,14 +42,18 @@ struct AdvectScratch {
   std::vector<Index> rim;    ///< internal faces with a halo cell
   /// [n_faces], [n_cells] whether the item is in a list.
   std::vector<std::uint8_t> face_marked, cell_marked;
-  CellField<Real> speed;  ///< of the interface along n_hat
-  CellField<Real> share;  ///< of a cell's outflow changed by a round of redistribution
+  CellField<Vec3> velocity;  ///< at the centre of the plane
+  bool any_bends;            ///< whether a cell of any rank does
+  CellField<Bend> bend;      ///< of the interface
+  geometry::Polytope cell;   ///< scratch
+  CellField<Real> share;     ///< of a cell's outflow changed by a round of redistribution
 };
 
 /// Collective. One step of isoAdvector [Roenby16]: through every face near the interface the volume
 /// swept by the upwind cell's plane, moving along its normal with the velocity at its centre, for a
-/// time dt. Where cells would leave [0, 1] their outflow is raised (lowered) until they do not; the
-/// excess goes along with the flow, no volume is clipped. With a divergence-free phi the sum of
+/// time dt; in a tetrahedron by the paraboloid about the plane, moved aside with this velocity for
+/// half of dt. Where cells would leave [0, 1] their outflow is raised (lowered) until they do not;
+/// the excess goes along with the flow, no volume is clipped. With a divergence-free phi the sum of
 /// alpha V is kept to round-off. The amount that div phi != 0 and fractions within 1e-12 of 0 or 1
 /// would add is given back to the cells of the interface, each in proportion to V alpha (1 -
 /// alpha). The sum stays, and full cells stay full.

@@ -38,6 +38,41 @@ Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Rea
   return sum / whole;
 }
 
+namespace {
+
+/// The ends of the line at level s on a triangle whose corners have the levels q, x and q sorted;
+/// twice the corner nearest to it where s is out of range.
+std::array<Vec3, 2> line_at(const std::array<Vec3, 3>& x, const geometry::Levels<3>& q, Real s) {
+  if (s <= q[0]) return {x[0], x[0]};
+  if (s >= q[2]) return {x[2], x[2]};
+  const auto between = [&](std::size_t a, std::size_t b) {
+    return x[a] + (s - q[a]) / (q[b] - q[a]) * (x[b] - x[a]);
+  };
+  return {between(0, 2), s <= q[1] ? between(0, 1) : between(1, 2)};
+}
+
+}  // namespace
+
+Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, const Bend& bend,
+                const Vec3& aside, Real s0, Real s1) {
+  std::array<Vec3, 3> x;
+  for (Index i = 0; i < 3; ++i) x[i] = mesh.corner(f, i, c) - p.centre;
+  std::ranges::sort(x, {}, [&](const Vec3& r) { return dot(p.n_hat, r); });
+  const geometry::Levels<3> q{dot(p.n_hat, x[0]), dot(p.n_hat, x[1]), dot(p.n_hat, x[2])};
+  const auto product = [&](const Vec3& a, const Vec3& b) {
+    return dot(a - aside, dot(bend.K, b - aside));
+  };
+  const auto [a, b] = line_at(x, q, (s0 + s1) / 2);
+  const Real on_line = (product(a, a) + product(a, b) + product(b, b)) / 3;
+  const Real on_face = (product(x[0], x[0]) + product(x[1], x[1]) + product(x[2], x[2]) +
+                        product(x[0], x[1]) + product(x[1], x[2]) + product(x[2], x[0])) /
+                       6;
+  const Real range = q[2] - q[0], way = std::abs(s1 - s0);
+  const Real whole = way < range ? way / range : 1;
+  const Real shift = (bend.mean - on_line - whole * (on_face - on_line)) / 2;
+  return geometry::mean_part_below(q, s0 + shift, s1 + shift);
+}
+
 void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
                    std::span<const Index> faces) {

@@ -6,6 +6,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/vof/bend.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi::vof {
@@ -13,6 +14,13 @@ namespace fsi::vof {
 /// Mean of the part of face f behind the plane p of cell c, while the plane moves along its normal
 /// from distance s0 to s1.
 Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Real s1);
+/// The same for a face of a tetrahedron and the paraboloid about the plane, its middle moved by
+/// `aside`: behind the plane shifted to where the paraboloid stands on the face, by
+///   (mean - <x . K . x>) / 2,  x = r - aside,
+/// < > over the line in which the plane cuts the face half-way between s0 and s1, and over the face
+/// as far as the plane sweeps all of it.
+Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, const Bend& bend,
+                const Vec3& aside, Real s0, Real s1);
 
 /// alpha_f: the part of solid between the centres of the two cells of a face, in the prism that the
 /// face sweeps along d, through which a flux over this distance passes. From the plane of a cell,

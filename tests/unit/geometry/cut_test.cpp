@@ -114,6 +114,20 @@ TEST(Cut, KnownPartsOfTheCube) {
   EXPECT_EQ(cut(cube, {n, -0.1}).area, 0);
 }
 
+TEST(Cut, SpreadOfKnownCuts) {
+  const Cut square = cut(hex().polytope(), {{0, 0, 1}, 0.3});
+  EXPECT_NEAR(square.spread.xx, 1.0 / 12, 1e-15);
+  EXPECT_NEAR(square.spread.yy, 1.0 / 12, 1e-15);
+  EXPECT_NEAR(square.spread.xy, 0, 1e-15);
+  EXPECT_NEAR(square.spread.zz, 0, 1e-15);
+  const Cut corner = cut(tet().polytope(), {{0, 0, 1}, 0.5});  // legs of 1/2
+  EXPECT_NEAR(corner.spread.xx, 0.25 / 18, 1e-16);
+  EXPECT_NEAR(corner.spread.xy, -0.25 / 36, 1e-16);
+  const Cut edge = cut(quad().polytope(2), {Vec3{1, 0, 0}, 0.4});
+  EXPECT_NEAR(edge.spread.yy, 1.0 / 12, 1e-15);
+  EXPECT_NEAR(edge.spread.xx, 0, 1e-15);
+}
+
 TEST(Cut, BothSidesFillTheCell) {
   Random random(1);
   for (int i = 0; i < 6000; ++i) {
