@@ -105,7 +105,7 @@ def main():
         command = doctor + [tets, "-worst", "12", "-worst_file", worst]
         said = run(command if ranks == 1 else launcher + [str(ranks)] + command)
         check(said.returncode == 0, f"exit code 0 on {ranks} ranks: {said.stderr}")
-        reports.append(said.stdout.replace(f" on {ranks} ranks", "").replace(worst, ""))
+        reports.append(said.stdout.replace(f" on {ranks} rank" + "s" * (ranks > 1), "").replace(worst, ""))
         check_worst(said.stdout, worst)
     check_report(reports[0], tets)
     check(reports[0] == reports[1] == reports[2], "one, two and three ranks tell the same")
@@ -117,7 +117,7 @@ def main():
     stenosis = [os.path.join(drivers, "fsi-stenosis"), "-mesh", tets, "-output_dir", out]
     short = run(stenosis + ["-time_end", "0.001"])
     line = reports[0].splitlines()[0]
-    check(short.returncode == 0 and line in short.stdout.replace(" on 1 ranks", ""),
+    check(short.returncode == 0 and line in short.stdout.replace(" on 1 rank", ""),
           "a driver prints the same line: " + line)
     check("fsi: warning: mesh " + tets in short.stderr and "(limit " in short.stderr and
           "fsi-mesh check" in short.stderr, "and warns: " + short.stderr)
