@@ -75,9 +75,8 @@ std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limi
                "(%.4g, %.4g, %.4g)",
                gap.cells, limits.gap, gap.width, gap.from.c_str(), gap.to.c_str(), gap.x.x, gap.x.y,
                gap.x.z),
-         print("make the cells there smaller, of size %.2g or less: a smaller size, or a field of "
-               "type "
-               "Ball or Box with VIn = %.2g about that place as Background Field",
+         print("give gmsh a smaller size, %.2g or less, for all cells or for those there alone: a "
+               "field of type Ball or Box with VIn = %.2g about that place as Background Field",
                gap.width / 10, gap.width / 10)});
   return found;
 }

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from . import cuts, labels, style, surfaces
+from . import cuts, labels, scene, style, surfaces
 
 AXES = cuts.AXES
 
@@ -80,7 +80,9 @@ def flow(run, normal, numbers=None, units=labels.Units(), top=None):
         (2.9, 2.35 * size[1] / size[0] + 0.55)
     figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
                                 figsize=(width * columns + (not wide) * 0.7, height * rows + wide * 0.75))
-    top = max(cut["speed"].max() for cut in found) if top is None else top
+    most = max(cut["speed"].max() for cut in found)
+    # A few values far above the others, as in a run that fails, do not set the range.
+    top = max(scene.span(cut["speed"])[1] for cut in found) if top is None else top
     for ax, cut in zip(axes.flat, found):
         shades = draw_section(ax, cut, top, units)
         if ax is not axes.flat[0] and not wide:
@@ -90,7 +92,7 @@ def flow(run, normal, numbers=None, units=labels.Units(), top=None):
     if run.failed():
         figure.suptitle(end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
     figure.colorbar(shades, ax=axes, label=units.field("speed"), shrink=0.5 if wide else 0.9, aspect=30,
-                    location="bottom" if wide else "right", pad=0.02)
+                    extend="max" if most > top else "neither", location="bottom" if wide else "right", pad=0.02)
     return figure
 
 
