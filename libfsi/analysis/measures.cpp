@@ -26,6 +26,15 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
   return sum.total();
 }
 
+Real dissipation(const CellField<Real>& mu, const CellField<Tensor>& L, const Mesh& mesh) {
+  Sum sum;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Tensor twice_D = L[c] + transpose(L[c]);
+    sum.add(mu[c] * mesh.V[c] / 2 * trace(dot(twice_D, twice_D)));
+  }
+  return sum.total();
+}
+
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L) {
   // |W|^2 - |D|^2 = -tr(L L).
   for (Index c = 0; c < Q.size(); ++c) {

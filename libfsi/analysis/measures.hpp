@@ -26,6 +26,9 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
 /// [Matsumiya25] (25). Every cell for which L is set, owned and halo.
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L);
 
+/// integral 2 mu D : D, D the symmetric part of L: what viscosity turns into heat, per time.
+Real dissipation(const CellField<Real>& mu, const CellField<Tensor>& L, const Mesh& mesh);
+
 /// Volume-weighted means of an error: L1 = <|e|>, L2 = <e^2>^(1/2), Linf = max |e|.
 struct Norms {
   /// The three means.

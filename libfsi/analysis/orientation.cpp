@@ -1,6 +1,7 @@
 #include "libfsi/analysis/orientation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -8,7 +9,27 @@
 
 namespace fsi::analysis {
 
-Orientation orientation(const Surface& surface, const Vec3& centroid, const Vec3& previous) {
+namespace {
+
+/// v or -v: what agrees with `previous`, or with x where there is none.
+Vec3 agreeing(const Vec3& v, const Vec3& previous) {
+  return (previous == Vec3{} ? v.x : dot(v, previous)) < 0 ? -v : v;
+}
+
+}  // namespace
+
+Real angle_to_x(const Vec3& v) {
+  return std::acos(std::min(std::abs(v.x), Real{1})) * (180 / shapes::pi);
+}
+
+Real turn_about_z(const Vec3& from, const Vec3& to) {
+  constexpr Real upright = 1e-3;
+  if (std::hypot(from.x, from.y) < upright || std::hypot(to.x, to.y) < upright) return 0;
+  const Real angle = std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+  return std::remainder(angle * (180 / shapes::pi), 180);
+}
+
+Orientation orientation(const Surface& surface, const Vec3& centroid, const Orientation& previous) {
   std::array<Sum, 7> sums;
   for (Index k = 0; k < surface.size(); ++k) {
     // Exact over a facet with d corners of size A: A / (d (d + 1)) (sum r_i r_i + (sum r_i)^2).
@@ -36,10 +57,8 @@ Orientation orientation(const Surface& surface, const Vec3& centroid, const Vec3
   const Eigen e = eigen(m);
   result.value = e.value;
   if (surface.dim == 2) result.value[2] = 0;
-  result.n = e.vector[0];
-  const Real agreement = previous == Vec3{} ? result.n.x : dot(result.n, previous);
-  if (agreement < 0) result.n = -result.n;
-  result.angle = std::acos(std::min(std::abs(result.n.x), Real{1})) * (180 / shapes::pi);
+  result.n = agreeing(e.vector[0], previous.n);
+  result.longest = agreeing(e.vector[surface.dim == 2 ? 1 : 2], previous.longest);
   return result;
 }
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "libfsi/analysis/measures.hpp"
-#include "libfsi/analysis/orientation.hpp"
 #include "libfsi/analysis/pieces.hpp"
 #include "libfsi/analysis/ring.hpp"
 #include "libfsi/analysis/surface.hpp"
@@ -101,10 +100,25 @@ void add_openings(std::vector<Entry>& row, const Solver& solver) {
     row.push_back({"reynolds", solver.physics().rho * velocity_length / solver.physics().mu_f});
 }
 
+/// 0 where no cell is without solid.
 Real pressure_span(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
   Real low = std::numeric_limits<Real>::max(), high = -low;
-  for (const Real p : solver.state().p.owned()) low = std::min(low, p), high = std::max(high, p);
-  return global_max(high) - global_min(low);
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (std::ranges::any_of(solver.bodies(), [c](const Body& body) { return body.alpha[c] > 0; }))
+      continue;
+    low = std::min(low, solver.state().p[c]), high = std::max(high, solver.state().p[c]);
+  }
+  return std::max(global_max(high) - global_min(low), Real{0});
+}
+
+Real dissipation(Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  CellField<Real> mu(mesh, solver.physics().mu_f);
+  for (const Body& body : solver.bodies())
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      mu[c] += body.alpha[c] * (body.mu - solver.physics().mu_f);
+  return analysis::dissipation(mu, solver.velocity_gradient(), mesh);
 }
 
 void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v,
@@ -136,7 +150,7 @@ void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::R
   }
   row.push_back({"map_det_min", global_min(low)});
   row.push_back({"map_det_max", global_max(high)});
-  row.push_back({"shape_energy", soundness.shape_energy, Course::shape});
+  row.push_back({"shape_energy", soundness.shape_energy, Course::energy});
   row.push_back({"shape_moved", body.shape_moved, Course::step});
 }
 
@@ -183,7 +197,7 @@ Real shape_energy(const Body& body) {
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
-std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
+std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
   const Mesh& mesh = solver.mesh();
   Real elastic = 0;
   for (const Body& body : solver.bodies()) elastic += elastic_energy(body);
@@ -200,7 +214,8 @@ std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, R
       {"mean_velocity", solver.mean_velocity()},
       {"divergence_max", flow::divergence_max(solver.state().phi, mesh), Course::step},
       {"kinetic_energy", kinetic_energy(solver)},
-      {"elastic_energy", elastic, Course::shape},
+      {"elastic_energy", elastic, Course::energy},
+      {"dissipation", dissipation(solver)},
       {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
       {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
       {"wall_per_step", wall_per_step, Course::step}};
@@ -215,8 +230,9 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh);
   started_ = tracker_.started ? 1 : 0;
   const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
-  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, axis_);
-  axis_ = o.n;
+  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, orientation_);
+  turned_ += analysis::turn_about_z(orientation_.n, o.n);
+  orientation_ = o;
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
@@ -231,7 +247,11 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   row.push_back({"volume", m.volume});
   row.push_back({"volume_out", body.volume_out});
   add(row, {"nx", "ny", "nz"}, o.n, Course::shape);
-  row.push_back({"angle", o.angle, Course::shape});
+  row.push_back({"angle", analysis::angle_to_x(o.n), Course::shape});
+  row.push_back({"turned", turned_, Course::shape});
+  add(row, {"lx", "ly", "lz"}, o.longest, Course::shape);
+  row.push_back({"long_angle", analysis::angle_to_x(o.longest), Course::shape});
+  row.push_back({"area", analysis::area(surface), Course::shape});
   row.push_back({"det_B_min", h.det_min});
   row.push_back({"det_B_max", h.det_max});
   row.push_back({"min_eig_B", h.eigenvalue_min});
@@ -240,7 +260,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
-  row.push_back({"elastic_energy", soundness_.elastic_energy, Course::shape});
+  row.push_back({"elastic_energy", soundness_.elastic_energy, Course::energy});
   if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body);
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
@@ -259,9 +279,11 @@ void SolidRecord::list(io::Snapshot& snapshot, const std::string& name) {
   add_vector("tracker_home", tracker_.home);
   add_vector("tracker_travelled", tracker_.travelled);
   add_vector("tracker_middle", tracker_.middle);
-  add_vector("axis", axis_);
+  add_vector("axis", orientation_.n);
+  add_vector("longest", orientation_.longest);
   add_vector("zeta", zeta_);
   snapshot.add(of + "tracker_started", &started_);
+  snapshot.add(of + "turned", &turned_);
   snapshot.add(of + "volume_0", &volume_0_);
   snapshot.add(of + "drift", &drift_);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libfsi/analysis/motion.hpp"
+#include "libfsi/analysis/orientation.hpp"
 #include "libfsi/core/clock.hpp"
 #include "libfsi/io/checkpoint.hpp"
 #include "libfsi/run/case.hpp"
@@ -19,7 +20,8 @@ std::vector<Real> values(const std::vector<Entry>& row);
 
 /// Collective. What a row of flow.csv tells of the flow after a step of length dt:
 /// pressure_drop between the patches inlet and outlet, S times the period in a periodic channel;
-/// pressure_span = max p - min p; flow_rate through the patch `outlet`, the section of a periodic
+/// pressure_span = max p - min p of the cells without solid; dissipation: integral 2 mu D : D, mu
+/// by the fractions of the cell; flow_rate through the patch `outlet`, the section of a periodic
 /// channel; us and dt as they are; limit: what set dt, 0 nothing, 1 -time_step, 2 advective, 3
 /// elastic, 4 start, 5 -time_step_max, 6 an event to be hit (a file or the end), 7 growing again
 /// after a rejected step, 8 strain of the solid. Of each patch NAME that fluid goes through
@@ -27,7 +29,7 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// behind its load's answer, in the middle of the step; where the flow is prescribed that of the
 /// cells beside it. reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in
 /// 2-D the width) of the patch where it is largest.
-std::vector<Entry> flow_row(const Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
+std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
 /// What tells of a solid whether it is to be believed.
 struct Soundness {
@@ -57,7 +59,9 @@ class SolidRecord {
   bool ring_;
   analysis::Tracker tracker_;
   std::int64_t started_ = 0;  // of the tracker, as a checkpoint holds it
-  Vec3 axis_, zeta_;
+  analysis::Orientation orientation_;
+  Vec3 zeta_;
+  Real turned_ = 0;  // degrees about z
   Real volume_0_ = 0, drift_ = 0;
   Soundness soundness_;
 };

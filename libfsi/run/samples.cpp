@@ -17,20 +17,24 @@ Real part(Real t, Real from, Real to) { return to > from ? (t - from) / (to - fr
 /// (1 - w) before + w after, as it is for that column.
 Real mixed(Real before, const Entry& after, Real w, Real w_shape) {
   if (after.course == Course::step || !std::isfinite(before)) return after.value;
-  if (after.course == Course::shape) w = w_shape;
+  const bool energy = after.course == Course::energy;
+  if (energy || after.course == Course::shape) w = w_shape;
+  if (energy) return std::max((1 - w) * before + w * after.value, Real{0});
   if (after.course != Course::half_turn) return (1 - w) * before + w * after.value;
   const Real way = std::remainder(after.value - before, 180);
   const Real angle = after.value - (1 - w) * way;
   return angle > 90 ? angle - 180 : angle <= -90 ? angle + 180 : angle;
 }
 
-/// Makes the columns nx, ny, nz a unit vector again, and `angle` that to the x axis in degrees.
-void set_axis(std::vector<Real>& values, const std::vector<Entry>& entries) {
+/// Makes the column `first` and the two behind it a unit vector again, and `angle_name` its angle
+/// to the x axis in degrees.
+void set_axis(std::vector<Real>& values, const std::vector<Entry>& entries, const char* first,
+              const char* angle_name) {
   const auto at = [&](const char* name) {
     return static_cast<std::size_t>(std::ranges::find(entries, name, &Entry::name) -
                                     entries.begin());
   };
-  const std::size_t n = at("nx"), angle = at("angle");
+  const std::size_t n = at(first), angle = at(angle_name);
   if (angle >= values.size() || n + 2 >= values.size()) return;
   const Vec3 axis{values[n], values[n + 1], values[n + 2]};
   const Real size = norm(axis);
@@ -49,7 +53,10 @@ std::vector<Real> between(const Row& before, const Row& after, Real t) {
   for (std::size_t i = 0; i < after.entries.size(); ++i)
     values.push_back(whole ? mixed(before.entries[i].value, after.entries[i], w, w_shape)
                            : after.entries[i].value);
-  if (whole) set_axis(values, after.entries);
+  if (whole) {
+    set_axis(values, after.entries, "nx", "angle");
+    set_axis(values, after.entries, "lx", "long_angle");
+  }
   values[0] = t;
   return values;
 }

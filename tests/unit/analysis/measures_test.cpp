@@ -50,6 +50,17 @@ TEST(Measures, QOfRotationStrainAndShear) {
   EXPECT_DOUBLE_EQ(q(shear), 0);
 }
 
+TEST(Measures, DissipationOfShearAndOfRotation) {
+  const Mesh mesh = box();
+  const CellField<Real> mu(mesh, 0.2);
+  Tensor shear, rotation;
+  shear.xy = 3;  // 2 mu D : D = mu * 9
+  rotation.xy = -3, rotation.yx = 3;
+  EXPECT_NEAR(dissipation(mu, CellField<Tensor>(mesh, shear), mesh), 1.8 * mesh.total_volume,
+              1e-13);
+  EXPECT_NEAR(dissipation(mu, CellField<Tensor>(mesh, rotation), mesh), 0, 1e-15);
+}
+
 TEST(Measures, NormsOfAKnownError) {
   const Mesh mesh = box();
   const Norms n = norms(mesh, [&](Index c) { return mesh.C[c].x < 0.5 ? 3.0 : -1.0; });

@@ -110,7 +110,7 @@ TEST(Surface, OrientationOfATorus) {
     const Shape shape = translate(rotate(torus(0.3, 0.1), {0, 0, 1}, psi), centre);
     const Surface s = surface_of(mesh, shape, centre);
     const Orientation o = orientation(s, centre);
-    EXPECT_NEAR(o.angle, degrees, 0.01);
+    EXPECT_NEAR(angle_to_x(o.n), degrees, 0.01);
     // r^2 / 2 along the axis, R^2 / 2 + 3 r^2 / 4 across; the surface of a tube three cells wide
     // lies 0.08 cells inside.
     EXPECT_NEAR(o.value[0], 0.005, 0.06 * 0.005);
@@ -118,7 +118,7 @@ TEST(Surface, OrientationOfATorus) {
     EXPECT_NEAR(o.value[2], 0.0525, 0.015 * 0.0525);
     const Vec3 axis{std::cos(psi), std::sin(psi), 0};
     EXPECT_LE(norm(cross(o.n, axis)), 1e-3);
-    EXPECT_GT(dot(orientation(s, centre, -axis).n, -axis), 0.99);
+    EXPECT_GT(dot(orientation(s, centre, {.n = -axis}).n, -axis), 0.99);
   }
 }
 
@@ -127,15 +127,40 @@ TEST(Surface, OrientationOfAnEllipse) {
   const Shape shape =
       translate(rotate(ellipsoid({0.15, 0.35, infinity}), {0, 0, 1}, 0.5), centre_2d);
   const Orientation o = orientation(surface_of(mesh, shape, centre_2d), centre_2d);
-  EXPECT_NEAR(o.angle, 0.5 * 180 / pi, 0.2);
+  EXPECT_NEAR(angle_to_x(o.n), 0.5 * 180 / pi, 0.2);
   EXPECT_EQ(o.n.z, 0);
+  EXPECT_LE(std::abs(dot(o.n, o.longest)), 1e-12);
+  EXPECT_EQ(o.longest.z, 0);
+}
+
+TEST(Surface, LongestDirectionOfAnEgg) {
+  const Mesh mesh = test::read_box({{32, 32, 32}});
+  const Real psi = 0.5;
+  const Shape shape = translate(rotate(ellipsoid({0.35, 0.15, 0.2}), {0, 0, 1}, psi), centre);
+  const Surface s = surface_of(mesh, shape, centre);
+  const Orientation o = orientation(s, centre);
+  const Vec3 axis{std::cos(psi), std::sin(psi), 0}, short_axis{-std::sin(psi), std::cos(psi), 0};
+  EXPECT_LE(norm(cross(o.longest, axis)), 1e-3);
+  EXPECT_LE(norm(cross(o.n, short_axis)), 1e-3);
+  EXPECT_LT(dot(orientation(s, centre, {.longest = -axis}).longest, axis), -0.99);
+}
+
+TEST(Orientation, TurnsAreAddedUpPastNinetyDegrees) {
+  const auto line = [](Real degrees) {
+    return Vec3{std::cos(degrees * pi / 180), std::sin(degrees * pi / 180), 0};
+  };
+  Real turned = 0;
+  for (int i = 0; i < 20; ++i) turned += turn_about_z(line(17 * i), -line(17 * (i + 1)));
+  EXPECT_NEAR(turned, 340, 1e-11);
+  EXPECT_NEAR(turn_about_z(line(10), line(-30)), -40, 1e-12);
+  EXPECT_EQ(turn_about_z({0, 0, 1}, line(30)), 0);
 }
 
 TEST(Surface, NoneWithoutSolid) {
   const Mesh mesh = test::read_box({{4, 4, 4}});
   const Surface s = isosurface(CellField<Real>(mesh), mesh, {});
   EXPECT_EQ(area(s), 0);
-  EXPECT_EQ(orientation(s, {}).angle, 0);
+  EXPECT_EQ(orientation(s, {}).n, Vec3{});
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// A soft sphere at rest in a uniform flow that carries it through a periodic mesh at a slant, three
+// cells a radius: exact is that its centre goes with the flow and that nothing strains it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "libfsi/analysis/motion.hpp"
+#include "libfsi/analysis/orientation.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+struct Errors {
+  Real centre = 0;  ///< distance from where the flow would have carried it, in diameters
+  Real aspect = 1;  ///< smallest over largest half-axis that the second moments tell
+};
+
+Errors carried(const std::string& name, const std::vector<std::string>& periodic, Real diameters) {
+  const Mesh mesh =
+      read_mesh({.file = std::string(FSI_MESHES) + "/" + name + ".msh", .periodic = periodic});
+  const Vec3 U{1, 0.31, 0.17}, start{1.23, 1.27, 1.21};
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = 10}, {.conditions = {}});
+  solver.start([&](const Vec3&) { return U; });
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.5), start), .G = 10, .mu = 0.01});
+  const Body& body = solver.bodies().front();
+  analysis::Tracker tracker;
+  const Vec3 before = analysis::motion(tracker, body.alpha, solver.state().u, mesh).centroid;
+  Real next = 0;
+  Errors errors;
+  while (norm(U) * solver.state().t < diameters) {
+    solver.advance(std::min(solver.advective_dt(0.5), solver.elastic_dt()));
+    const analysis::Motion motion = analysis::motion(tracker, body.alpha, solver.state().u, mesh);
+    errors.centre = norm(motion.centroid - before - body.t * U);
+    if (norm(U) * solver.state().t < next) continue;
+    const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker.home);
+    const analysis::Orientation o = analysis::orientation(surface, tracker.home);
+    errors.aspect = std::sqrt(o.value[0] / o.value[2]);
+    Real eigenvalue = 1;
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      if (body.alpha[c] > 0.5)
+        eigenvalue = std::min({eigenvalue, body.B[c].xx, body.B[c].yy, body.B[c].zz});
+    eigenvalue = global_min(eigenvalue);
+    if (rank() == 0)
+      std::printf("%s, %5.1f diameters: centre off by %.2e, aspect %.4f, smallest B_ii %.4f\n",
+                  name.c_str(), norm(U) * solver.state().t, errors.centre, errors.aspect,
+                  eigenvalue);
+    next += diameters / 5;
+  }
+  return errors;
+}
+
+const std::vector<std::string> sides{"left", "right", "bottom", "top", "back", "front"};
+
+void expect_carried(const std::string& name, const std::vector<std::string>& periodic,
+                    Real diameters) {
+  const Errors errors = carried(name, periodic, diameters);
+  EXPECT_LE(errors.centre, 1e-3);
+  EXPECT_NEAR(errors.aspect, 1, 0.005);
+}
+
+TEST(Carried, Hexes) { expect_carried("hexes_carried", sides, 10); }
+TEST(Carried, Tets) { expect_carried("tets_carried", {}, 10); }
+TEST(CarriedFar, Hexes) { expect_carried("hexes_carried", sides, 100); }
+TEST(CarriedFar, Tets) { expect_carried("tets_carried", {}, 100); }
+
+}  // namespace
+}  // namespace fsi
