@@ -52,7 +52,7 @@ def arguments():
     parser.add_argument("--relative", action="store_true", help="streamlines of view.png as seen by who "
                         "moves with the body")
     parser.add_argument("--time", type=float, help="view.png at the field file nearest to this time; not "
-                        "given: the last one with solid in it")
+                        "given: the last one with nearly all of the solid in it")
     parser.add_argument("--film", action="store_true", help="film/frame_NNNN.png too, and film.mp4 where "
                         "ffmpeg is installed, else film.gif")
     parser.add_argument("--scale", type=int, default=1, help="2 doubles the resolution")
@@ -68,7 +68,7 @@ def print_numbers(run):
     summary = run.summary
     if summary:
         print(f"  {summary['status']} at t = {summary['t']:.6g}: {summary['cells']} cells, "
-              f"{summary['ranks']} ranks, {summary['steps']} steps, {summary['wall_seconds']:.4g} s")
+              f"{summary['ranks']} {'rank' if summary['ranks'] == 1 else 'ranks'}, {summary['steps']} steps, {summary['wall_seconds']:.4g} s")
     for name, data in plots.with_drift(run).items():
         if not os.path.exists(os.path.join(run.folder, name + ".csv")):
             continue
@@ -95,8 +95,7 @@ def pictures(run, wish):
         sections.interface(run, wish.units)
     yield "flow.png", sections.flow(run, normal, units=wish.units)
     if deep:
-        with_solid = sections.while_solid(run)
-        number = with_solid[-1] if with_solid else -1
+        number = sections.last_whole(run)
         if wish.time is not None:
             number = min(range(len(run.items)), key=lambda i: abs(run.times[i] - wish.time))
         yield "view.png", views.view(run, number, look, wish.scale)

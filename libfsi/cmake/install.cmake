@@ -27,14 +27,14 @@ install(FILES ${PROJECT_BINARY_DIR}/fsiConfig.cmake ${PROJECT_BINARY_DIR}/fsiCon
               ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
         DESTINATION ${config_folder})
 
-# pkg-config: the files of PETSc, MPI, HDF5 and METIS by their paths, the library by its place beside fsi.pc.
+# pkg-config: the files of PETSc, MPI, HDF5, libyaml and METIS by their paths, the library by its place beside fsi.pc.
 set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH pc_prefix /prefix/${pc_folder} /prefix)
 set(pc_includes ${PETSC_INCLUDE_DIRS} ${MPI_CXX_INCLUDE_DIRS})
 list(REMOVE_DUPLICATES pc_includes)
 list(TRANSFORM pc_includes PREPEND -I)
 list(JOIN pc_includes " " pc_includes)
-set(pc_libraries ${PETSC_LINK_LIBRARIES} ${HDF5_C_LIBRARIES} ${METIS_LIBRARY} ${MPI_CXX_LIBRARIES})
+set(pc_libraries ${PETSC_LINK_LIBRARIES} ${HDF5_C_LIBRARIES} ${YAML_LIBRARY} ${METIS_LIBRARY} ${MPI_CXX_LIBRARIES})
 list(REMOVE_DUPLICATES pc_libraries)
 list(TRANSFORM pc_libraries REPLACE "^([^/-].*)$" "-l\\1")
 list(JOIN pc_libraries " " pc_libraries)

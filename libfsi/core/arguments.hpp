@@ -26,4 +26,7 @@ std::string fault_of(const Arguments& arguments);
 /// with _); "" where none is.
 std::string repeated_key(const std::string& yaml);
 
+/// The line and the reason where a text is no YAML, as libyaml tells them; "" where it is.
+std::string yaml_fault(const std::string& yaml);
+
 }  // namespace fsi

@@ -92,7 +92,9 @@ void start_petsc(Arguments& arguments) {
   const std::string fault = fault_of(arguments);
   require(fault.empty(), fault);
   if (!arguments.file.empty()) {
-    const std::string twice = repeated_key(text_of(arguments.file));
+    const std::string text = text_of(arguments.file), wrong = yaml_fault(text);
+    require(wrong.empty(), "options file \"" + arguments.file + "\" is not valid YAML: " + wrong);
+    const std::string twice = repeated_key(text);
     require(twice.empty(), "options file \"" + arguments.file + "\" gives " + twice + " twice");
   }
   std::vector<char*> words;

@@ -85,7 +85,9 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
   for (const auto& [name, condition] : conditions) {
     bool there = false;
     for (const Patch& patch : mesh.patches) there = there || patch.name == name;
-    require(there, "patch \"" + name + "\" is not in the mesh, which has: " + names(mesh));
+    require(there, "patch \"" + name + "\" is not in the mesh, " +
+                       (mesh.patches.empty() ? "of which all patches are periodic"
+                                             : "which has: " + names(mesh)));
   }
   require_balance(result);
   set_shapes(result, mesh);

@@ -75,8 +75,8 @@ std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limi
                "(%.4g, %.4g, %.4g)",
                gap.cells, limits.gap, gap.width, gap.from.c_str(), gap.to.c_str(), gap.x.x, gap.x.y,
                gap.x.z),
-         print("make the cells there smaller, of size %.2g or less: a larger n, or a field of type "
-               "Ball or Box with VIn = %.2g about that place as Background Field",
+         print("give gmsh a smaller size, %.2g or less, for all cells or for those there alone: a "
+               "field of type Ball or Box with VIn = %.2g about that place as Background Field",
                gap.width / 10, gap.width / 10)});
   return found;
 }
@@ -86,10 +86,11 @@ std::string summary(const std::string& file, const Mesh& mesh, const MeshFigures
   std::string line =
       "mesh " + file +
       print(
-          ": %lld cells in %d-D on %d ranks; non-orthogonality max %.1f mean %.1f deg, skewness "
+          ": %lld cells in %d-D on %d %s; non-orthogonality max %.1f mean %.1f deg, skewness "
           "max %.3f, volume ratio max %.1f, aspect ratio max %.1f",
-          static_cast<long long>(mesh.n_global), mesh.dim, ranks(), q.non_orthogonality.value,
-          q.non_orthogonality_mean, q.skewness.value, q.volume_ratio.value, q.aspect_ratio.value);
+          static_cast<long long>(mesh.n_global), mesh.dim, ranks(), ranks() == 1 ? "rank" : "ranks",
+          q.non_orthogonality.value, q.non_orthogonality_mean, q.skewness.value,
+          q.volume_ratio.value, q.aspect_ratio.value);
   if (figures.gap.cells > 0) line += print(", %.1f cells across", figures.gap.cells);
   return line;
 }

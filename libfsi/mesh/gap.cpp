@@ -59,6 +59,11 @@ Real extent(const Mesh& mesh, Index c, const Vec3& along) {
   return high - low;
 }
 
+/// What a line along that direction counts as one cell.
+Real size(const Mesh& mesh, Index c, const Vec3& along) {
+  return mesh.simplex(c) ? edge(mesh, c) : extent(mesh, c, along);
+}
+
 /// Through owned cell c; returns the face it leaves by. The plane of face f lies at
 /// t = (Cf - x) . S / (along . S) where along . S > 0: the nearest is where the line goes out.
 Index cross_cell(const Mesh& mesh, Index c, Ray& ray) {
@@ -73,7 +78,7 @@ Index cross_cell(const Mesh& mesh, Index c, Ray& ray) {
   }
   least = std::max(least, Real{0});
   if (out < 0) return out;
-  ray.cells += least / extent(mesh, c, ray.along);
+  ray.cells += least / size(mesh, c, ray.along);
   ray.width += least;
   ray.x += least * ray.along;
   ++ray.crossings;
@@ -128,6 +133,25 @@ Index owned_cell(const Mesh& mesh, GlobalIndex id) {
 }
 
 }  // namespace
+
+Real edge(const Mesh& mesh, Index c) {
+  const Real V = mesh.V[c];
+  switch (mesh.type(c)) {
+    case CellType::triangle:
+      return std::sqrt(4 / std::sqrt(3.0) * V);
+    case CellType::tet:
+      return std::cbrt(6 * std::sqrt(2.0) * V);
+    case CellType::prism:
+      return std::cbrt(4 / std::sqrt(3.0) * V);
+    case CellType::pyramid:
+      return std::cbrt(3 * std::sqrt(2.0) * V);
+    case CellType::quad:
+      return std::sqrt(V);
+    case CellType::hex:
+      break;
+  }
+  return std::cbrt(V);
+}
 
 Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls) {
   const std::vector<char> chosen = chosen_patches(mesh, walls);

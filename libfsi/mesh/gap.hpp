@@ -16,12 +16,17 @@ struct Gap {
   std::string from, to;  ///< the patches on either side
 };
 
+/// The edge of a cell: that of the regular cell of its kind (all edges equal) and volume.
+Real edge(const Mesh& mesh, Index c);
+
 /// Collective. From the centre of every face of the patches `walls` (none given: of every patch) a
 /// line goes along the inward normal until it leaves the mesh. It counts where it leaves through a
 /// face of one of them whose normal is within 45 degrees of it: so corners do not count. Its cells
 /// are
-///   sum over the cells it crosses of (length within the cell) / (extent of the cell along it),
-/// the extent from the first to the last corner. In a block of n bricks from wall to wall it is n.
+///   sum over the cells it crosses of (length within the cell) / (size of the cell).
+/// The size of a triangle or tetrahedron is its edge, as above, in all directions. That of any
+/// other cell is its extent along the line, from the first to the last corner, so that thin layers
+/// count as layers: in a block of n bricks from wall to wall it is n.
 /// The result is the line with the fewest cells. Lines of more than a thousand cells do not count.
 /// Errors: Error{input} for an unknown patch.
 Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls = {});

@@ -11,6 +11,8 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/run/forewords.hpp"
+#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/strain.hpp"
 
 namespace fsi {
@@ -75,6 +77,32 @@ void tell_of_loads(const Conditions& conditions) {
           load.proximal / (load.proximal + load.distal));
     std::printf("\n");
   }
+}
+
+/// Collective. A patch of type symmetry is a plane, or several.
+void warn_of_curved_planes(const Conditions& conditions, const Mesh& mesh) {
+  constexpr Real rounding = 0.1;  // degrees
+  for (const Patch& patch : mesh.patches) {
+    const auto found = conditions.find(patch.name);
+    if (found == conditions.end() || !std::holds_alternative<Slip>(found->second)) continue;
+    const Real turn = curvature(patch, mesh);
+    if (turn > rounding && rank() == 0)
+      std::fprintf(stderr,
+                   "fsi: warning: patch \"%s\" of type symmetry is curved, by up to %.2g degrees "
+                   "from face to face: symmetry is meant for planes, and a vessel's wall is of "
+                   "type wall\n",
+                   patch.name.c_str(), turn);
+  }
+}
+
+/// Rank 0. Sets the length and the velocity that Ca and G* of the solids are to be of.
+void tell_of_peak(const PeakFlow& peak, const Physics& p, Real& length, Real& velocity) {
+  std::printf(
+      "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
+      "diameter %.4g; U = %.4g is the largest velocity there\n",
+      peak.patch.c_str(), peak.t, p.rho * peak.mean * peak.length / p.mu_f, peak.mean, peak.length,
+      peak.top);
+  length = peak.length, velocity = peak.top;
 }
 
 FlowSetup read_flow(Options& options) {
@@ -239,15 +267,27 @@ void put_solids(Solver& solver, const Case& setup) {
   for (const SolidSetup& s : setup.solids) {
     solver.put_solid(s.solid);
     const Body& body = solver.bodies().back();
-    if (rank() == 0 && s.solid.memory && !body.held && body.extended())
+    const bool simplices = solid::has_simplices(solver.mesh());
+    if (rank() != 0) continue;
+    if (s.solid.memory && !body.held && body.extended())
       std::printf(
-          "%s: no memory of its shape on triangles and tetrahedra: a shape under load "
-          "creeps\n",
+          "%s: no memory of its shape on triangles and tetrahedra: a shape under load creeps "
+          "(doc/howto/vessel.md, section 4)\n",
           s.shape_name.c_str());
+    if (simplices && s.solid.kinematics == KinematicsKind::left_cauchy_green)
+      std::fprintf(stderr,
+                   "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "
+                   "triangles and tetrahedra; take log_conformation\n",
+                   s.shape_name.c_str());
   }
 }
 
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
+  warn_of_curved_planes(setup.flow.conditions, mesh);
+  const PeakFlow peak =
+      velocity == 0 ? peak_flow(setup.flow.conditions, mesh, setup.time.end) : PeakFlow{};
+  std::vector<Real> edges;
+  for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(s.solid.shape, mesh));
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
   const Real share = ranks() > 1 && !setup.solids.empty() ? solid_share(mesh, setup.solids) : 0;
   if (rank() != 0) return;
@@ -258,19 +298,22 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
   tell_of_loads(setup.flow.conditions);
-  if (velocity == 0)
+  if (!peak.patch.empty())
+    tell_of_peak(peak, p, length, velocity);
+  else if (velocity == 0)
     std::printf("the flow decides on Re: column reynolds of flow.csv\n");
   else
     std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
                 length, velocity);
-  const Real h = std::pow(mesh.total_volume / static_cast<Real>(mesh.n_global), 1.0 / mesh.dim);
-  for (const SolidSetup& s : setup.solids) {
+  for (std::size_t i = 0; i < setup.solids.size(); ++i) {
+    const SolidSetup& s = setup.solids[i];
     const std::string name =
         s.solid.name.empty() ? s.shape_name : s.solid.name + " (" + s.shape_name + ")";
     const Real rho = s.solid.rho > 0 ? s.solid.rho : p.rho;
     std::printf(
-        "%s: density ratio %.4g, viscosity ratio %.4g, %.1f cells through its thickness of %g",
-        name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, s.thickness / h, s.thickness);
+        "%s: density ratio %.4g, viscosity ratio %.4g, %.1f cells (edges) through its thickness of "
+        "%g",
+        name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, s.thickness / edges[i], s.thickness);
     if (velocity != 0)
       std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
                   p.mu_f * velocity / (s.solid.G * length),

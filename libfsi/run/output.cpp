@@ -203,7 +203,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
   energy_.add(solver_, dt);
-  if (const std::string wrong = watch_.energy(energy_.part_made(), s); !wrong.empty())
+  if (const std::string wrong = watch_.energy(energy_.part_made(), solver_); !wrong.empty())
     solver_.report().failure = wrong;
   watch_.leaving(solver_);
   write_rows(limit, dt);
@@ -284,6 +284,17 @@ void Output::write_fields() {
   fields_at_ = s.t;
 }
 
+/// The last good state of a run that failed, after its checkpoint: bringing the solid to the time
+/// of the flow may fail in its turn.
+void Output::write_last_fields() {
+  if (!fields_ || fields_at_ >= solver_.state().t) return;
+  try {
+    write_fields();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerics) throw;  // else the reason of the run's end is told
+  }
+}
+
 void Output::write_checkpoint() {
   if (checkpoints_.write(snapshot())) saved_step_ = solver_.state().step;
 }
@@ -331,6 +342,7 @@ RunStatus Output::finish() {
   saving([&] {
     if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
     if ((!complete || case_.output.checkpoint_interval > 0) && !saved()) write_checkpoint();
+    if (!failure.empty()) write_last_fields();
     if (failure.empty() && interrupted_ && !saved())
       throw Error(ErrorKind::io, "the run was interrupted and its checkpoint could not be written");
     const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";

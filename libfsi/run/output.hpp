@@ -63,6 +63,7 @@ class Output {
   std::vector<Row> rows(const Limit& limit, Real dt, Real wall_per_step);
   Limit count(const Limit& limit, Real dt);
   void write_fields();
+  void write_last_fields();
   void write_checkpoint();
   void write_progress(const Limit& limit, Real dt);
   std::string summary(const std::string& status) const;

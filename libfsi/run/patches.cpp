@@ -181,6 +181,13 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
             "patch \"" + name + "\" of the mesh: its name becomes part of options and columns, " +
                 "which take letters, digits and _ - + . only; rename its Physical group in gmsh");
   }
+  std::map<std::string, std::string> known;  // without capitals
+  for (const std::string& name : names_of(mesh)) {
+    const auto [other, is_new] = known.emplace(lower(name), name);
+    require(is_new, "patches \"" + other->second + "\" and \"" + name +
+                        "\" of the mesh differ by capitals alone, which options do not tell apart; "
+                        "rename one in gmsh");
+  }
   const std::string has = "the mesh has: " + joined(names_of(mesh));
   for (const std::string& name : names_of(mesh))
     require(!options.given("patches_" + name), "option -patches_" + name +

@@ -150,7 +150,7 @@ void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::R
   }
   row.push_back({"map_det_min", global_min(low)});
   row.push_back({"map_det_max", global_max(high)});
-  row.push_back({"shape_energy", soundness.shape_energy, Course::shape});
+  row.push_back({"shape_energy", soundness.shape_energy, Course::energy});
   row.push_back({"shape_moved", body.shape_moved, Course::step});
 }
 
@@ -214,7 +214,7 @@ std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wa
       {"mean_velocity", solver.mean_velocity()},
       {"divergence_max", flow::divergence_max(solver.state().phi, mesh), Course::step},
       {"kinetic_energy", kinetic_energy(solver)},
-      {"elastic_energy", elastic, Course::shape},
+      {"elastic_energy", elastic, Course::energy},
       {"dissipation", dissipation(solver)},
       {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
       {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
@@ -260,7 +260,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
-  row.push_back({"elastic_energy", soundness_.elastic_energy, Course::shape});
+  row.push_back({"elastic_energy", soundness_.elastic_energy, Course::energy});
   if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body);
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);

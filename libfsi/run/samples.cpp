@@ -17,7 +17,9 @@ Real part(Real t, Real from, Real to) { return to > from ? (t - from) / (to - fr
 /// (1 - w) before + w after, as it is for that column.
 Real mixed(Real before, const Entry& after, Real w, Real w_shape) {
   if (after.course == Course::step || !std::isfinite(before)) return after.value;
-  if (after.course == Course::shape) w = w_shape;
+  const bool energy = after.course == Course::energy;
+  if (energy || after.course == Course::shape) w = w_shape;
+  if (energy) return std::max((1 - w) * before + w * after.value, Real{0});
   if (after.course != Course::half_turn) return (1 - w) * before + w * after.value;
   const Real way = std::remainder(after.value - before, 180);
   const Real angle = after.value - (1 - w) * way;

@@ -13,6 +13,7 @@ namespace fsi {
 enum class Course {
   smooth,     ///< linear in the time of the flow
   shape,      ///< linear in that of the solid, which stands half a step off
+  energy,     ///< the same, and never below 0
   pressure,   ///< smooth, but not known before the first step
   step,       ///< of the step: the later row's
   half_turn,  ///< smooth, degrees of a line's direction: the shorter way round
@@ -32,8 +33,8 @@ struct Row {
 };
 
 /// The row at time t from rows before and after it: an error of second order in their distance. The
-/// columns nx, ny, nz and lx, ly, lz stay unit vectors, `angle` and `long_angle` their own. A value of `before` that is not
-/// finite counts as unknown: that of `after` is taken.
+/// columns nx, ny, nz and lx, ly, lz stay unit vectors, `angle` and `long_angle` their own. A value
+/// of `before` that is not finite counts as unknown: that of `after` is taken.
 std::vector<Real> between(const Row& before, const Row& after, Real t);
 
 /// Tells when rows are due, at every multiple of an interval (0: at the end of every step), and

@@ -94,8 +94,14 @@ void read_material(Options& options, const std::string& of, const Physics& physi
 
 /// Puts the shape about the origin where the options say.
 void place(Options& options, const std::string& of, SolidSetup& solid) {
-  const Vec3 centre = options.vec3(of + "center", {0.5, 0.5, 0.5},
-                                   {.help = "centre of the shape", .unit = "length"});
+  const bool on_path = options.given(of + "path") && !options.help();
+  require(!on_path || !options.given(of + "center") || solid.shape_name == "none",
+          "options -" + of + "path and -" + of +
+              "center exclude each other: the path says where the solid starts; give one of them");
+  const Vec3 unset{0.5, 0.5, 0.5};
+  const Vec3 centre = on_path ? unset
+                              : options.vec3(of + "center", unset,
+                                             {.help = "centre of the shape", .unit = "length"});
   if (options.given(of + "axis") || options.help()) {
     const Vec3 axis = options.vec3(
         of + "axis", {1, 0, 0}, {.help = "axis of revolution, in place of the angle", .unit = ""});
@@ -133,8 +139,8 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.kinematics = read_kinematics(read, of);
   solid.solid.memory = read.flag(
       of + "memory", true,
-      "a map to the undeformed solid holds its shape and strain to each other; on quads and "
-      "hexes, not with left_cauchy_green");
+      "the run keeps a map to the undeformed solid and holds shape and strain to it; on quads, "
+      "hexes and prisms, not on triangles and tetrahedra, nor with left_cauchy_green");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));

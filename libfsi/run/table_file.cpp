@@ -71,7 +71,8 @@ void check_header(const std::string& file, const std::string& header,
   std::vector<std::string> expected;
   for (const ColumnNames& names : columns)
     expected.push_back(names.empty() ? "a value" : joined(names, " or "));
-  const std::string wanted = "; expected: " + joined(expected, ", ");
+  const std::string wanted = "; expected: " + joined(expected, ", ") +
+                             " (a unit in brackets behind a name, capitals and blanks are allowed)";
   const std::vector<std::string> found = names_of(header);
   const std::string begin = "file \"" + file + "\": ";
   require(found.size() == columns.size(), begin + "its first line \"" + header + "\" names " +

@@ -1,8 +1,11 @@
 #include "libfsi/run/watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <limits>
 
+#include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
 
@@ -19,15 +22,39 @@ std::string table_of(const Body& body) {
   return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
 }
 
+/// Collective. Where the solid is strained most: the cell with the smallest eigenvalue of B.
+std::string place_of_strain(const Solver& solver) {
+  Real least = std::numeric_limits<Real>::max();
+  Vec3 x;
+  for (const Body& body : solver.bodies())
+    for (Index c = 0; c < body.mesh.n_owned; ++c) {
+      if (body.alpha[c] <= 0.5) continue;
+      const Real value = eigen(body.B_of(c)).value[0];
+      if (value < least) least = value, x = body.mesh.C[c];
+    }
+  // The least of all ranks, and of equal ones that of the first rank.
+  const std::vector<Real> all = gathered(std::array{least, x.x, x.y, x.z});
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < all.size(); i += 4)
+    if (all[i] < all[best]) best = i;
+  if (all[best] == std::numeric_limits<Real>::max()) return "";
+  return print(
+      "; the solid is strained most at (%.4g, %.4g, %.4g), where the smallest eigenvalue "
+      "of B is %.3g: at an edge or a corner of the wall neither a finer mesh nor a shorter "
+      "step helps, but another place to start from",
+      all[best + 1], all[best + 2], all[best + 3], all[best]);
+}
+
 }  // namespace
 
-std::string Watch::energy(Real made, const State& state) {
+std::string Watch::energy(Real made, const Solver& solver) {
   constexpr Real odd = 0.1, wrong = 0.5;
   if (made < odd) return "";
   const std::string text =
       print("at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of flow.csv)",
-            state.t, 100 * made) +
-      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity";
+            solver.state().t, 100 * made) +
+      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity" +
+      place_of_strain(solver);
   if (!told_of_energy_ && made <= wrong) say("warning", text);
   told_of_energy_ = true;
   return made > wrong ? text : "";
@@ -37,7 +64,8 @@ void Watch::leaving(const Solver& solver) {
   const Real t = solver.state().t;
   for (std::size_t i = 0; i < said_.size(); ++i) {
     const Body& body = solver.bodies()[i];
-    if (body.volume_out <= 0) continue;
+    constexpr Real rounding = 1e-12;  // as in Body::count_out
+    if (body.volume_out <= rounding * body.filled.volume) continue;
     const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
     said_[i].leaving = true, said_[i].left = body.gone != 0;
     if (begins)

@@ -15,9 +15,10 @@ class Watch {
   /// bodies: count of solids.
   explicit Watch(std::size_t bodies) : said_(bodies) {}
 
-  /// A warning when `made`, the part of the energy that comes from nothing, is odd; where it is
-  /// most of it, why the run must end: such a run is wrong, whatever else it tells. Else "".
-  std::string energy(Real made, const State& state);
+  /// Collective. A warning when `made`, the part of the energy that comes from nothing, is odd;
+  /// where it is most of it, why the run must end: such a run is wrong, whatever else it tells.
+  /// Both name the place where the solid is strained most. Else "".
+  std::string energy(Real made, const Solver& solver);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
   /// A warning when a solid is strained past what the mesh resolves, and when the energy of its

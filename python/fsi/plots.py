@@ -1,4 +1,5 @@
 """Plots of the tables: a run over time, or several runs over each other."""
+import dataclasses
 import itertools
 import os
 from dataclasses import dataclass
@@ -6,7 +7,7 @@ from dataclasses import dataclass
 import matplotlib.pyplot as plt
 import numpy as np
 
-from . import labels, runs, style
+from . import labels, runs, sections, style
 
 
 @dataclass
@@ -24,10 +25,8 @@ class Panel:
 
 
 PANELS = (
-    Panel("centroid", "centroid along x", "solid", ("x",), "length"),
-    Panel("centroid", "centroid across x", "solid", ("y", "z"), "length"),
-    Panel("velocity", "velocity of the solid along x", "solid", ("ux",), "velocity"),
-    Panel("velocity", "velocity of the solid across x", "solid", ("uy", "uz"), "velocity"),
+    Panel("centroid", "centroid", "solid", ("x", "y", "z"), "length"),
+    Panel("velocity", "velocity of the solid", "solid", ("ux", "uy", "uz"), "velocity"),
     Panel("angle", "angle of the axis to x", "solid", ("angle",), "degrees", floor=1e-2),
     Panel("aspect", "aspect ratio of the sections", "solid",
           ("aspect_forward", "aspect_back", "aspect_right", "aspect_left"), "1", floor=1e-4),
@@ -55,13 +54,33 @@ OF_THE_RUN = ("dt", "divergence", "iterations", "wall")  # shown only where aske
 KEYS = list(dict.fromkeys(panel.key for panel in PANELS))
 
 
+def main_axis(solid):
+    """The axis along which a solid travels more than twice as far as along the others; None without one."""
+    ways = [np.ptp(solid[axis]) if axis in solid and len(solid[axis]) else 0.0 for axis in "xyz"]
+    first, second = sorted(ways)[:-3:-1]
+    return "xyz"[ways.index(first)] if first > 2 * second else None
+
+
+def directed(panel, solid):
+    """The panels of what has three components: along the way of the solid and across it, where it has
+    one direction."""
+    axis = main_axis(solid)
+    if panel.key not in ("centroid", "velocity") or panel.table != "solid" or axis is None:
+        return [panel]
+    along = [column for column in panel.columns if column.endswith(axis)]
+    across = [column for column in panel.columns if not column.endswith(axis)]
+    return [dataclasses.replace(panel, title=f"{panel.title} along {axis}", columns=tuple(along)),
+            dataclasses.replace(panel, title=f"{panel.title} across {axis}", columns=tuple(across))]
+
+
 def chosen_panels(show, tables):
     """The panels that are asked for by key or by column; all but those of the run itself for none."""
+    panels = [part for panel in PANELS for part in directed(panel, tables["solid"])]
     if not show:
-        return [panel for panel in PANELS if panel.key not in OF_THE_RUN], False
+        return [panel for panel in panels if panel.key not in OF_THE_RUN], False
     found = []
     for word in KEYS if show == ["all"] else show:
-        known = [panel for panel in PANELS if panel.key == word]
+        known = [panel for panel in panels if panel.key == word]
         of = [name for name in ("solid", "flow") if word in tables[name]]
         if not known and not of:
             raise ValueError(f'nothing is called "{word}"; there are {", ".join(KEYS)}, all, and the '
@@ -153,6 +172,8 @@ def series(run, show=None, units=labels.Units()):
         _finish(ax, panel, units, dim, lines[0][0] if len(lines) == 1 < len(panel.columns) else "")
         if len(lines) > 1 or empty is not None:
             _legend(ax, len(lines) + (empty is not None))
+    if run.failed():
+        figure.suptitle(sections.end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
     return figure
 
 

@@ -51,7 +51,7 @@ def _xvfb():
         return False
     read, write = os.pipe()
     server = subprocess.Popen([program, "-displayfd", str(write), "-screen", "0", "64x64x24", "-nolisten",
-                               "tcp"], pass_fds=[write], stdin=subprocess.DEVNULL,
+                               "tcp", "-noreset"], pass_fds=[write], stdin=subprocess.DEVNULL,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     atexit.register(server.wait)
     atexit.register(server.terminate)

@@ -211,6 +211,10 @@ class Run:
         self.summary = summary(folder)
         self.items = series(folder)
 
+    def failed(self):
+        """Whether the run ended before its end with a reason; a run that goes on has none yet."""
+        return self.summary.get("status") == "failed" and bool(self.summary.get("message"))
+
     @property
     def times(self):
         return [time for _, time in self.items]

@@ -126,6 +126,7 @@ class Grid:
             found = cells.resample(parts.extend(mesh.points), parts.corners,
                                    parts.extend(snapshot.at_points(name)), mesh.low, mesh.high, shape)
             self.values = np.where(np.isnan(found), self.values, found)
+        self.values = grown(self.values)
 
     def __call__(self, places):
         """Values at places [n, 3], linear between the nodes; NaN outside."""
@@ -145,8 +146,20 @@ class Grid:
         return total
 
 
-def streamlines(grid, seeds, length, steps=160):
-    """Lines along the velocity through the seeds, `length` long to both sides, or to the wall."""
+def grown(values):
+    """A field on a grid [nx, ny, nz, 3] by one layer wider: a node without a value takes the mean of those
+    around it. So all places in the mesh have their eight nodes."""
+    known = ~np.isnan(values[..., :1])
+    padded = np.pad(np.concatenate([np.where(known, values, 0), known], axis=-1), ((1, 1),) * 3 + ((0, 0),))
+    total = sum(padded[tuple(slice(i, i + n) for i, n in zip(step, values.shape))] for step in
+                np.ndindex(3, 3, 3))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(known, values, total[..., :3] / total[..., 3:])
+
+
+def streamlines(grid, seeds, length, steps=160, least=20):
+    """Lines along the velocity through the seeds, `length` long to both sides, or to the wall; none of
+    `least` points or less."""
     step = length / steps
     found = []
     for way in (-step, step):
@@ -160,7 +173,7 @@ def streamlines(grid, seeds, length, steps=160):
     whole = np.concatenate([found[0][::-1], np.asarray(seeds, float)[None], found[1]])
     for line in np.swapaxes(whole, 0, 1):
         known = line[~np.isnan(line).any(axis=1)]
-        if len(known) > steps // 8:
+        if len(known) > least:
             yield known
 
 

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from . import cuts, labels, style, surfaces
+from . import cuts, labels, scene, style, surfaces
 
 AXES = cuts.AXES
 
@@ -80,15 +80,19 @@ def flow(run, normal, numbers=None, units=labels.Units(), top=None):
         (2.9, 2.35 * size[1] / size[0] + 0.55)
     figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
                                 figsize=(width * columns + (not wide) * 0.7, height * rows + wide * 0.75))
-    top = max(cut["speed"].max() for cut in found) if top is None else top
+    most = max(cut["speed"].max() for cut in found)
+    # A few values far above the others, as in a run that fails, do not set the range.
+    top = max(scene.span(cut["speed"])[1] for cut in found) if top is None else top
     for ax, cut in zip(axes.flat, found):
         shades = draw_section(ax, cut, top, units)
         if ax is not axes.flat[0] and not wide:
             ax.set_ylabel("")
         if wide and ax is not axes.flat[len(found) - 1]:
             ax.set_xlabel("")
+    if run.failed():
+        figure.suptitle(end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
     figure.colorbar(shades, ax=axes, label=units.field("speed"), shrink=0.5 if wide else 0.9, aspect=30,
-                    location="bottom" if wide else "right", pad=0.02)
+                    extend="max" if most > top else "neither", location="bottom" if wide else "right", pad=0.02)
     return figure
 
 
@@ -100,10 +104,26 @@ def while_solid(run):
     return numbers
 
 
+def last_whole(run):
+    """The number of the last field file with nearly all of the solid in it; the last one without a solid."""
+    numbers = while_solid(run)
+    if not numbers:
+        return -1
+    whole = 0.98 * max(run.snapshot(number).volume_of_solid() for number in (0, numbers[-1]))
+    return next((number for number in reversed(numbers) if run.snapshot(number).volume_of_solid() >= whole),
+                numbers[-1])
+
+
+def end(run, units):
+    """What a title says of a run that failed, or nothing."""
+    return f"; the run failed at t = {units.number(run.summary['t'], 'time')}" if run.failed() else ""
+
+
 def gone(run, numbers, units):
-    """What a title says where the solid has left before the end."""
-    return "" if len(numbers) == len(run.items) else \
+    """What a title says where the solid has left before the end, and where the run failed."""
+    left = "" if len(numbers) == len(run.items) else \
         f"; none is left at t = {units.number(run.times[len(numbers)], 'time')}"
+    return left + end(run, units)
 
 
 def interface(run, units=labels.Units()):

@@ -54,12 +54,13 @@ class Surface:
                        {name: value[kept] for name, value in self.values.items()})
 
 
-def isosurface(snapshot, name="alpha", level=0.5, carry=()):
+def isosurface(snapshot, name="alpha", level=0.5, carry=(), value=None):
     """The surface name = level in three dimensions; its normals point to smaller values.
 
-    The fields named in `carry` come along as values at the points.
+    The fields named in `carry` come along as values at the points. value: at the points, 0 at the surface,
+    in place of name - level.
     """
-    mesh, value = snapshot.mesh, snapshot.at_points(name) - level
+    mesh, value = snapshot.mesh, snapshot.at_points(name) - level if value is None else value
     least, most = mesh.extent(value)
     parts = cells.Simplices(mesh, np.flatnonzero((least <= 0) & (most >= 0)))
     value, places = parts.extend(value), parts.extend(mesh.points)
@@ -104,16 +105,20 @@ def united(parts):
 
 def _body(snapshot, name, fields, about, rounds):
     """The surface of one solid, of which `name` is the part of the cells."""
-    level = _half(snapshot, name)
-    surface = isosurface(snapshot, name, level, fields)
+    mesh = snapshot.mesh
+    value = snapshot.at_points(name) - _half(snapshot, name)
+    tets = bool((mesh.types == cells.TET).all())
+    if tets:
+        value = cells.matched(mesh, snapshot[name], value)
+    surface = isosurface(snapshot, carry=fields, value=value)
     if len(surface.triangles) == 0:
         return surface
-    mesh = snapshot.mesh
-    surface = in_one_piece(united([surface, cap(snapshot, name, level, fields)]), mesh, about)
+    surface = in_one_piece(united([surface, cap(snapshot, value, fields)]), mesh, about)
     surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
     for key, value in surface.values.items():
         surface.values[key] = filled(value, surface.edges()[0])
-    surface = smooth(subdivide(smooth(surface, rounds)), 10)
+    # Tets cut triangles of all sizes, which count by their area; few rounds do, as the level is sharp.
+    surface = smooth(subdivide(smooth(surface, rounds if not tets else 30, tets)), 10)
     if (surface.edges()[1] == 2).all():
         # Means over cells round off what is curved: give the volume back along the normals.
         volume = snapshot.volume_of_solid(name)
@@ -205,24 +210,29 @@ def joined(surface, size):
                    {name: value[first] for name, value in surface.values.items()})
 
 
-def smooth(surface, rounds):
-    """Takes out steps of the size of a cell and keeps volume and shape; an open edge stays."""
+def smooth(surface, rounds, by_area=False):
+    """Takes out steps of the size of a cell and keeps volume and shape; an open edge stays.
+
+    by_area: a point goes towards the middle of the triangles around it, not that of its neighbours.
+    """
     edges, count = surface.edges()
-    points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel())
+    mean = (lambda places: middles(places, surface.triangles)) if by_area else None
+    points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel(), mean)
     values, number = {}, len(surface.points)
     for name, value in surface.values.items():
         values[name] = relaxed(value.reshape(number, -1), edges, 6).reshape(value.shape)
     return Surface(points, surface.triangles, values)
 
 
-def relaxed(places, edges, rounds, fixed=()):
+def relaxed(places, edges, rounds, fixed=(), mean=None):
     """Each round moves what stands at the ends of edges towards the mean of its neighbours and back
-    [Taubin95]."""
+    [Taubin95]. mean(places): another aim."""
+    mean = mean or (lambda places: neighbours(places, edges))
     free = np.ones((len(places), 1))
     free[np.asarray(fixed, int)] = 0
     for _ in range(rounds):
         for share in (0.5, -0.53):
-            places = places + share * free * (neighbours(places, edges) - places)
+            places = places + share * free * (mean(places) - places)
     return places
 
 
@@ -233,6 +243,17 @@ def neighbours(values, edges):
     return np.stack([np.bincount(edges[:, 0], column[edges[:, 1]], minlength=number) +
                      np.bincount(edges[:, 1], column[edges[:, 0]], minlength=number)
                      for column in values.T], axis=1) / degree
+
+
+def middles(places, triangles):
+    """For each point the middle of the triangles around it, each by its area."""
+    a, b, c = np.moveaxis(places[triangles], 1, 0)
+    area = np.repeat(np.linalg.norm(np.cross(b - a, c - a), axis=1), 3)
+    middle = np.repeat((a + b + c) / 3, 3, axis=0)
+    number, at = len(places), triangles.ravel()
+    total = np.bincount(at, area, minlength=number)[:, None]
+    found = np.stack([np.bincount(at, area * column, minlength=number) for column in middle.T], axis=1)
+    return np.where(total > 0, found / np.where(total > 0, total, 1), places)
 
 
 def filled(values, edges):
@@ -267,8 +288,8 @@ def subdivide(surface):
                    {name: halves(value) for name, value in surface.values.items()})
 
 
-def cap(snapshot, name, level, carry=()):
-    """The part of the mesh's outside on which a field is above a level; it closes the isosurface."""
+def cap(snapshot, value, carry=()):
+    """The part of the mesh's outside on which values at the points are above 0; it closes the isosurface."""
     mesh = snapshot.mesh
     triples, quads = outer_faces(mesh)
     middle = len(mesh.points) + np.arange(len(quads))
@@ -277,7 +298,7 @@ def cap(snapshot, name, level, carry=()):
 
     def extended(values):
         return np.concatenate([values, values[quads].mean(axis=1)])
-    places, value = extended(mesh.points), extended(snapshot.at_points(name) - level)
+    places, value = extended(mesh.points), extended(value)
     for axis in np.flatnonzero(mesh.period):  # a seam is no outside
         at = places[triangles, axis]
         room = 1e-6 * mesh.period[axis]

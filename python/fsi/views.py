@@ -11,6 +11,7 @@ from . import cuts, labels, render, scene, sections, style, surfaces
 PARTS = ("wall", "slice", "streamlines", "body")
 COLOURS = ("stretch", "traction", "p", "speed", "none")
 BODY, FLOW = "YlOrRd", "Blues"
+BESIDE = 2.0  # what --view body shows to either side, in sizes of the body
 
 
 @dataclass
@@ -35,13 +36,15 @@ class Look:
                 "x": ((1.0, 0.36, -0.4), (0, 1, 0))}[self.normal]
 
 
-def window(run, snapshot, look, about):
-    """The box [2, 3] that a view shows."""
+def window(snapshot, look, about, size=0.0):
+    """The box [2, 3] that a view shows; size: of the body."""
     mesh = snapshot.mesh
     low, high = mesh.low.copy(), mesh.high.copy()
     follow = look.view == "body" or look.view == "auto" and mesh.period.any()
     if follow and about is not None:
         half = 1.25 * np.sort(high - low)[1]
+        if look.view == "body" and size > 0:
+            half = min(half, BESIDE * size)
         for axis in range(3):
             if mesh.period[axis]:
                 reach = min(half, 0.5 * mesh.period[axis])
@@ -80,15 +83,18 @@ def colours_of(name, values, cmap, look):
 def build(run, snapshot, look):
     """(layers, camera, colours of the bars) of a view."""
     about = snapshot.centre_of_solid()
-    body = None
+    body, size = None, 0.0
     if about is not None:
         carried = () if look.colour == "none" else (look.colour,)
         body = surfaces.solid_surface(snapshot, carried)
         if len(body.points):
             about = 0.5 * (body.points.min(axis=0) + body.points.max(axis=0))
-    mesh, box = snapshot.mesh, window(run, snapshot, look, about)
+            size = np.ptp(body.points, axis=0).max()
+    mesh, box = snapshot.mesh, window(snapshot, look, about, size)
     wall = within(surfaces.wall(mesh), box, mesh)
-    camera = scene.fitted([wall.points], *look.eye())
+    # Near a body in the middle of a wide vessel there is no wall.
+    corners = box[np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
+    camera = scene.fitted([wall.points if len(wall.points) else corners], *look.eye())
     camera.width, camera.height = look.frame or (camera.width, camera.height)
     layers, bars = [], []
     if "wall" in look.parts:
@@ -141,7 +147,8 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
         grid.values = grid.values - np.average(snapshot["u"], axis=0, weights=weights)
     seeds = scene.apart(places, count)
     size = min(camera.width, camera.height)
-    lines = [piece for line in scene.streamlines(grid, seeds, camera.width)
+    # To both sides far enough to come to the wall, an inlet or an outlet.
+    lines = [piece for line in scene.streamlines(grid, seeds, 3 * camera.width, 480)
              for piece in pieces(line, ((line >= box[0]) & (line <= box[1])).all(axis=1))]
     surface = scene.tubes(lines, 0.0028 * size)
     return scene.painted(surface, (0.25, 0.3, 0.36, 1))
@@ -176,7 +183,8 @@ def view(run, number=-1, look=None, scale=1):
     figure = plt.figure(figsize=(inches, height))
     ax = figure.add_axes((0, (below + strip) / height, 1, inches * aspect / height))
     show(ax, picture)
-    ax.set_title(time_of(snapshot, look), loc="left", x=0.01)
+    last = number % len(run.items) == len(run.items) - 1
+    ax.set_title(time_of(snapshot, look) + (sections.end(run, look.units) if last else ""), loc="left", x=0.01)
     ruler(figure.add_axes((0, below / height, 1, strip / height)), camera, look, strip / inches)
     colour_bars(figure, bars, below / height)
     return figure

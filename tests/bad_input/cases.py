@@ -135,7 +135,12 @@ OPTIONS = [
     option("mesh not there", "-mesh nowhere.msh", "nowhere.msh", "cannot be opened", mesh=None),
     option("mesh a folder", "-mesh .", "\".\"", "is a folder", mesh=None),
     option("yaml not there", "nowhere.yaml", "nowhere.yaml", "cannot be opened", mesh=None),
-    option("yaml broken", "", "not valid YAML", yaml="fluid: {density: [1, 2\n time: }"),
+    option("yaml broken", "", "not valid YAML: line 2", yaml="fluid: {density: [1, 2\n time: }"),
+    option("yaml brace missing", "", "line 2: ", "begins in line 1", yaml="fluid: {density: 1\ntime: {end: 1}\n"),
+    option("yaml indented wrongly", "", "line 3: ", yaml="fluid:\n  density: 1\n   viscosity: 1\n"),
+    option("yaml with a tab", "", "line 2: ", "tab", yaml="fluid:\n\tdensity: 1\n"),
+    option("all patches periodic", "-mesh_periodic left,right,bottom,top", "\"top\"",
+           "all patches are periodic", mesh="box"),
     option("yaml unknown key", "", "-fluid_colour", yaml="fluid: {colour: 3}\n"),
     option("yaml value", "", "-fluid_density", "-3", yaml="fluid:\n  density: -3\n"),
 ]

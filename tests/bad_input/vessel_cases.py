@@ -38,6 +38,12 @@ def cases(Case):
         case("type misspelt", yaml(right="{type: presure}"), "-patches_right_type", "presure", "pressure"),
         case("name of a patch with a blank", yaml(), "\"left side\"", "letters", mesh="box",
              damage=f.renamed("left", "left side")),
+        case("patches that differ by capitals", yaml(), "\"left\" and \"Left\"", "capitals",
+             damage=f.renamed("right", "Left")),
+        case("path and centre", yaml("solid: {shape: sphere, path: [left, right], center: [0.5, 0.5, 0]}"),
+             "-solid_path", "-solid_center", "exclude each other"),
+        case("path and centre of one of several", yaml("solids: {one: {shape: sphere, path: [left, right], "
+             "center: [0.5, 0.5, 0]}}"), "-solids_one_path", "-solids_one_center"),
         case("windkessel without its capacitance", yaml(right="{type: windkessel, distal_resistance: 3}"),
              "-patches_right_capacitance", "missing", "volume per pressure"),
         case("windkessel without its resistance", yaml(right="{type: windkessel, capacitance: 3}"),

@@ -5,6 +5,7 @@
 """
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -102,6 +103,15 @@ def main():
     check([row["status"] for row in rows] == ["complete"] * 2 and
           all(abs(float(row["t"]) - 20) < 1e-9 for row in rows), "the table holds the end of each")
     check(os.path.exists(os.path.join(out, "sweep.png")), "and is drawn")
+
+    named = os.path.join(folder, "named.csv")
+    with open(named, "w", encoding="utf-8") as file:
+        file.write("name, lid_velocity\nslow, 0.5\nas it is, -\n")
+    short = [named if word == points else "0.01" if word == "20" else word for word in command]
+    subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    velocities = [re.findall(r'^lid_velocity: "?(.*?)"?$', text(os.path.join(out, name), "run.yaml"), re.M)
+                  for name in ("slow", "as it is")]
+    check(velocities == [["0.5"], ["1"]], f"points with names, one with the case's value: {velocities}")
 
     with open(points, "a", encoding="utf-8") as file:
         file.write("1\n")

@@ -46,6 +46,16 @@ def check_series():
     ring = make("ring", "10")
     told = titles(plots.series(ring))
     check("centroid along x" in told and "centroid across x: y" in told, f"what changes is shown: {told}")
+    for axis in "yz":
+        turned = make("turned", "10")
+        solid_table = turned.tables["solid"]
+        solid_table["x"], solid_table[axis] = solid_table[axis], solid_table["x"]
+        told = titles(plots.series(turned))
+        check(f"centroid along {axis}" in told, f"a solid that travels along {axis}: {told}")
+    solid_table["x"] = 0.9 * solid_table["z"]
+    told = titles(plots.series(turned))
+    check("centroid" in told and plots.main_axis(solid_table) is None, f"and one that turns: {told}")
+    told = titles(plots.series(ring))
     for words in ("volume", "det B", "divergence", "velocity"):
         check(not any(words in title for title in told), f"left out as round-off or not asked for: {words}")
     told = titles(plots.series(ring, ["angle", "aspect", "bending", "gradient", "det", "volume"]))
@@ -58,6 +68,18 @@ def check_series():
         check(False, "a word that is not known is refused")
     except ValueError as error:
         check('"angel"' in str(error) and "gradient" in str(error), "and told, with those that are known")
+
+
+def check_failed():
+    """A run that failed says so on every picture; one that goes on does not."""
+    run = make("failed", "10")
+    run.summary.update(status="failed", message="")
+    check(not run.failed() and plots.series(run)._suptitle is None, "a run that goes on has not failed")
+    run.summary.update(message="the flow became too fast", t=0.7)
+    for figure in (plots.series(run), sections.flow(run, "z")):
+        check(figure._suptitle.get_text() == "the run failed at t = 0.7", f"told: {figure._suptitle.get_text()}")
+    check(sections.gone(run, [0], plots.labels.Units()).endswith("; the run failed at t = 0.7"),
+          "beside the interface too")
 
 
 def check_empty_pipe():
@@ -90,6 +112,7 @@ def check_sections():
     """Twenty cells: the plane lies between two layers; the solid has left by the end."""
     run = make("layers", "1", mesh=box((2, 1, 1), (20, 20, 20)), times=[0.0, 0.1, 1.0])
     check(sections.while_solid(run) == [0, 1], "the last time with solid in it")
+    check(sections.last_whole(run) == 0, "the last time with the whole solid in it")
     figure = sections.flow(run, "z")
     told = titles(figure)
     check(told[0].startswith("t = 0   plane z = 0.5") and len(told) == 3, f"sections are drawn: {told}")
@@ -100,6 +123,7 @@ def check_sections():
 
 
 check_series()
+check_failed()
 check_empty_pipe()
 check_overlay()
 check_sections()

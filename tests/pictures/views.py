@@ -84,6 +84,25 @@ def check_views(run):
           "a streamline goes on across the seam")
 
 
+def check_small():
+    """A small body in a wide vessel: the view is of what is near it, and lines go from end to end."""
+    place, arrays = os.path.join(folder, "small"), box((4, 2, 2), (32, 16, 16))
+    mesh = fsi.Mesh(*arrays)
+    y, z = mesh.centres()[:, 1] - 1, mesh.centres()[:, 2] - 1
+    u = np.column_stack([2 - y**2 - z**2, 0 * y, 0 * y])
+    write_run(place, arrays, [0.0], lambda _: {"u": u, "alpha": ball(mesh, (2, 1, 1), 0.25)})
+    run = fsi.Run(place)
+    look = views.Look(renderer="plain", view="body", colour="none", pixels=200)
+    camera = views.build(run, run.snapshot(0), look)[1]
+    check(camera.width < 3.5, f"near a small body: {camera.width:.2f} wide")
+    whole = views.build(run, run.snapshot(0), views.Look(renderer="plain", colour="none"))[1]
+    check(whole.width > 4, f"all of the vessel: {whole.width:.2f} wide")
+    views.view(run, 0, look)
+    grid = scene.Grid(run.snapshot(0), "u")
+    ends = [np.ptp(line[:, 0]) for line in scene.streamlines(grid, [[2, 1.02, 1.9], [2, 0.04, 1]], 12.0, 480)]
+    check(len(ends) == 2 and min(ends) > 3.9, f"streamlines go from end to end: {ends}")
+
+
 def check_speck():
     """What is left of a solid in one cell has no surface, and stops no picture."""
     arrays = box((1, 1, 1), (6, 6, 6))
@@ -137,6 +156,7 @@ def check_without_display():
 check_image()
 seam = run_across_a_seam()
 check_views(seam)
+check_small()
 check_speck()
 check_film(seam)
 check_page(seam)

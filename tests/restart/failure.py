@@ -178,6 +178,16 @@ def main():
     check(summary(out)["status"] == "interrupted", "interrupted")
     check(any(name.startswith("checkpoint_") for name in os.listdir(out)), "with a checkpoint")
 
+    # Goes on from there and fails in its first step, where no field file is due.
+    failed = run([*command, "-time_end", "1000", "-output_interval", "100", "-restart", "-p_pc_type", "none",
+                  "-p_ksp_max_it", "2"])
+    state = summary(out)
+    with open(os.path.join(out, "fields.hdf.series"), encoding="utf-8") as file:
+        last = json.load(file)["files"][-1]
+    check(failed.returncode == 3 and state["t"] > 0.5 and last["time"] == state["t"] and
+          os.path.exists(os.path.join(out, last["name"])),
+          f"the fields of the last good state are there: {last}, t = {state['t']}: {failed.stderr}")
+
     check_rejections(drivers, source, folder, "the solid strains too much in the step",
                      ["-time_end", "6", "-time_step", "0.05", "-solid_shear_modulus", "0.01",
                       "-solid_center", "0.5,0.4,0", "-solid_radius", "0.3"])

@@ -55,6 +55,8 @@ def check_opening_lines(drivers, folder):
           "it opens with the fluid and what is there by default")
     check(re.search(r"patch right: resistance 0.5, distal resistance 2, capacitance 0.3: .* = 0.6, "
                     r".* = 0.2 of it", said.stdout), "and with the windkessel and its time")
+    check(re.search(r"peak of the flow: patch left at t = 0.*, Re = 10 .*; U = 1 ", said.stdout) and
+          "G* = G / (rho U^2) = 0.5" in said.stdout, "with the peak of the flow and what it makes of G")
     limits = re.search(r"^limits on dt:.*$", said.stdout, re.M).group(0)
     check(limits.count("advective") == 1, "each limit is told once: " + limits)
     for options in (["-solid_path", "left,right"], ["-solid_arc_length", "0.2"]):
@@ -63,6 +65,27 @@ def check_opening_lines(drivers, folder):
         check(alone.returncode == 0, f"without the solid {options[0]} is left aside: {alone.stderr}")
     help_text = run([vessel, "-help"], folder).stdout
     check("-solids_NAME_shape" in help_text, "-help tells how to have several solids")
+
+
+def check_meshes(source, drivers, folder):
+    """What a mesh of triangles, and a curved plane of symmetry, make a run say."""
+    vessel = [os.path.join(drivers, "fsi-vessel"), "case.yaml", "-output_dir", "out", "-time_end", "0.0001"]
+    gmsh(source, folder, "box", 8, "-setnumber", "lz", "0", "-setnumber", "simplex", "1")
+    said = run(vessel, folder)
+    check("no memory of its shape" in said.stdout and "vessel.md" in said.stdout and said.stderr == "",
+          "a solid on triangles has no memory: " + said.stdout + said.stderr)
+    said = run(vessel + ["-solid_kinematics", "left_cauchy_green"], folder)
+    check("left_cauchy_green becomes unstable on triangles" in said.stderr, "a warning: " + said.stderr)
+    gmsh(source, folder, "box", 12, "-setnumber", "lz", "0")
+    run(["gmsh", "-3", os.path.join(source, "meshes", "cylinder.geo"), "-setnumber", "n", "5", "-setnumber",
+         "length", "2", "-o", "round.msh"], folder, check=True)
+    round_wall = [os.path.join(drivers, "fsi-vessel"), "-mesh", "round.msh", "-output_dir", "out", "-time_end",
+                  "0.0001", "-patches_inlet_type", "pressure", "-patches_outlet_type", "pressure"]
+    said = run(round_wall, folder)
+    check(said.returncode == 0 and "curved" not in said.stderr, "a round wall is nothing odd: " + said.stderr)
+    said = run(round_wall + ["-patches_wall_type", "symmetry"], folder)
+    check(said.returncode == 0 and 'patch "wall" of type symmetry is curved' in said.stderr,
+          "a round plane of symmetry is: " + said.stderr)
 
 
 def check_end(drivers, folder):
@@ -145,6 +168,7 @@ def main():
     with open(os.path.join(folder, "case.yaml"), "w", encoding="utf-8") as file:
         file.write(CASE)
     check_opening_lines(drivers, folder)
+    check_meshes(source, drivers, folder)
     check_end(drivers, folder)
     check_pictures(source, drivers, folder)
     check_warnings(source, drivers, folder)

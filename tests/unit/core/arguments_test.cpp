@@ -42,6 +42,20 @@ TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
   EXPECT_EQ(repeated_key("\"a\": 1\n'a': 2\n"), "a");
 }
 
+TEST(Arguments, WhatIsNoYamlIsToldWithItsLine) {
+  EXPECT_EQ(yaml_fault("a: {b: 1}\nc: [1, 2]\n"), "");
+  EXPECT_EQ(yaml_fault(""), "");
+  for (const auto& [text, line, words] :
+       {std::tuple{"a: {b: 1\nc: 2\n", "line 2: ", "flow mapping that begins in line 1"},
+        {"a:\n  b: 1\n   c: 2\n", "line 3: ", "mapping values are not allowed"},
+        {"a:\n  b: 1\n c: 2\n", "line 3: ", "block mapping that begins in line 1"},
+        {"a:\n\tb: 1\n", "line 2: ", "holds a tab"},
+        {"a: [1, 2\n", "line 2: ", "flow sequence that begins in line 1"}}) {
+    EXPECT_TRUE(yaml_fault(text).starts_with(line)) << yaml_fault(text);
+    EXPECT_NE(yaml_fault(text).find(words), std::string::npos) << yaml_fault(text);
+  }
+}
+
 TEST(Arguments, KeysGivenTwiceAreFoundInBraces) {
   EXPECT_EQ(repeated_key("{a: 1, a: 2}"), "a");
   EXPECT_EQ(repeated_key("solid: {shape: torus, density: 1, shape: disk}\n"), "solid_shape");

@@ -127,6 +127,34 @@ TEST(Gap, OfABlockIsItsCountOfBricks) {
   EXPECT_THROW(narrowest_gap(mesh_of(block), {"letf"}), Error);
 }
 
+TEST(Gap, AnEdgeIsThatOfTheRegularCell) {
+  const auto edge_of = [](CellType type, Real volume) {
+    Block block;
+    block.type = type, block.n = {2, 2, 2};
+    const Mesh mesh = mesh_of(block);
+    EXPECT_NEAR(mesh.V[0], volume, 1e-12) << name_of(type);
+    return edge(mesh, 0);
+  };
+  EXPECT_NEAR(edge_of(CellType::hex, 0.125), 0.5, 1e-12);
+  EXPECT_NEAR(edge_of(CellType::quad, 0.25), 0.5, 1e-12);
+  const Real tet = edge_of(CellType::tet, 0.125 / 6), triangle = edge_of(CellType::triangle, 0.125),
+             prism = edge_of(CellType::prism, 0.0625),
+             pyramid = edge_of(CellType::pyramid, 0.125 / 6);
+  EXPECT_NEAR(tet * tet * tet / (6 * std::sqrt(2.0)), 0.125 / 6, 1e-12);
+  EXPECT_NEAR(std::sqrt(3.0) / 4 * triangle * triangle, 0.125, 1e-12);
+  EXPECT_NEAR(std::sqrt(3.0) / 4 * prism * prism * prism, 0.0625, 1e-12);
+  EXPECT_NEAR(pyramid * pyramid * pyramid / (3 * std::sqrt(2.0)), 0.125 / 6, 1e-12);
+}
+
+TEST(Gap, CountsTetrahedraByTheirEdge) {
+  Block block;
+  block.type = CellType::tet, block.n = {3, 4, 5};
+  const Mesh mesh = mesh_of(block);
+  const Gap gap = narrowest_gap(mesh, {"left", "right"});
+  EXPECT_NEAR(gap.width, 1, 1e-12);
+  EXPECT_NEAR(gap.cells, 1 / edge(mesh, 0), 1e-9) << "all cells are of one size";
+}
+
 TEST(Gap, CountsStretchedAndShearedCells) {
   Block block;
   block.n = {4, 5, 7};

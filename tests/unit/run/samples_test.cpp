@@ -40,6 +40,15 @@ TEST(Samples, RowsBetweenStepsAreOfSecondOrder) {
   }
 }
 
+TEST(Samples, AnEnergyIsNeverBelowZero) {
+  const auto at = [](Real t, Real energy) {
+    return Row{t, t - 0.5, {{"t", t}, {"elastic_energy", energy, Course::energy}}};
+  };
+  // The solid stands half a step behind: at the end of the step its course is drawn on.
+  EXPECT_EQ(between(at(0, 3), at(1, 1), 1)[1], 0);
+  EXPECT_EQ(between(at(0, 3), at(1, 2), 1)[1], 1.5);
+}
+
 TEST(Samples, AtItsEndTheRowIsThatOfTheStep) {
   const Row now = row_at(0.3, 0);
   const auto values = between(row_at(0.2, 0), now, 0.3);

@@ -73,6 +73,7 @@ TEST(Table, WhatIsNotMeantIsNamed) {
   for (const auto& [text, words] :
        {std::pair{"flow_rate,t\n1,0\n", "column 1 is called \"flow_rate\"; expected: t or time"},
         {"t,pressure\n0,1\n", "column 2 is called \"pressure\""},
+        {"t,flow\n0,1\n", "flow_rate or value (a unit in brackets behind a name"},
         {"t\n0,1\n", "names 1 columns"},
         {"t,value\nflow_rate,t\n0,1\n", "\"flow_rate,t\" is not 2 numbers"},
         {"t,value\n0,1,\n1,2,3\n", "\"1,2,3\" is not 2 numbers"},

@@ -36,8 +36,7 @@ Errors carried(const std::string& name, const std::vector<std::string>& periodic
   Errors errors;
   while (norm(U) * solver.state().t < diameters) {
     solver.advance(std::min(solver.advective_dt(0.5), solver.elastic_dt()));
-    const analysis::Motion motion =
-        analysis::motion(tracker, body.alpha, solver.state().u, mesh);
+    const analysis::Motion motion = analysis::motion(tracker, body.alpha, solver.state().u, mesh);
     errors.centre = norm(motion.centroid - before - body.t * U);
     if (norm(U) * solver.state().t < next) continue;
     const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker.home);

@@ -22,6 +22,7 @@ class Libfsi(CMakePackage):
     depends_on("mpi")
     depends_on("petsc@3.18: ~complex +double ~int64 +mpi +hypre +metis +hdf5")
     depends_on("hdf5@1.10: +mpi")
+    depends_on("libyaml")
     depends_on("metis@5.1: ~int64 ~real64")
     depends_on("gmsh@4.8:", type="run")
     depends_on("py-numpy", type="run")

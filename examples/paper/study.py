@@ -1,0 +1,125 @@
+"""Runs the parts of the study that examples/paper/run is asked for, each a sweep over a table here."""
+import argparse
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PARTS = ("flow", "disc", "pipe", "stenosis", "figures", "claims")
+
+
+@dataclass
+class Preset:
+    """Cells per diameter of the parts; several where a part compares meshes."""
+
+    flow: tuple
+    disc: tuple
+    pipe: int
+    stenosis: int
+
+
+PRESETS = {"coarse": Preset((16, 20, 24), (16, 32, 64), 24, 24),
+           "medium": Preset((16, 24, 32), (16, 32, 64, 128), 32, 32),
+           "paper": Preset((32, 48, 64), (16, 32, 64, 128), 64, 48)}
+PIPE = ("tilt", "place", "thickness", "modulus", "viscosity", "size")
+THROATS = (6, 3, 1)
+
+
+@dataclass
+class Sweep:
+    """A table of points, run with a driver and a case on a mesh of a geometry."""
+
+    part: str
+    name: str
+    points: str
+    driver: str
+    case: str
+    dimension: int
+    geometry: str
+    parameters: dict
+
+    @property
+    def mesh(self):
+        return "-".join([self.geometry] + [f"{k}-{v}" for k, v in self.parameters.items()]) + ".msh"
+
+
+def sweeps(preset):
+    """All sweeps of a preset, in the order of the figures."""
+    for n in preset.flow:
+        yield Sweep("flow", f"flow-{n}", "flow", "fsi-pipe", "pipe", 3, "pipe", {"n": n, "length": 1})
+    for n in preset.disc:
+        yield Sweep("disc", f"disc-{n}", "disc", "fsi-cavity", "disc", 2, "cavity", {"n": n})
+    for name in PIPE:
+        yield Sweep("pipe", name, name, "fsi-pipe", "pipe", 3, "pipe", {"n": preset.pipe, "length": 5})
+    for throat in THROATS:
+        yield Sweep("stenosis", f"throat-{throat}", "shapes", "fsi-stenosis", "stenosis", 3, "stenosis",
+                    {"n": preset.stenosis, "throat": throat})
+
+
+def make_mesh(sweep, folder):
+    """The mesh file of a sweep, made once."""
+    path = os.path.join(folder, sweep.mesh)
+    if os.path.exists(path):
+        return path
+    os.makedirs(folder, exist_ok=True)
+    settings = [word for k, v in sweep.parameters.items() for word in ("-setnumber", k, str(v))]
+    geometry = os.path.join(HERE, "..", "..", "meshes", sweep.geometry + ".geo")
+    done = subprocess.run(["gmsh", f"-{sweep.dimension}", geometry, *settings, "-bin", "-o",
+                           path + ".part.msh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, check=False)
+    if done.returncode:
+        sys.exit(f"gmsh failed on {geometry}:\n{done.stdout}")
+    os.replace(path + ".part.msh", path)
+    return path
+
+
+def run(sweep, arguments):
+    """Runs a sweep; whether all of its points are complete."""
+    driver = [os.path.join(arguments.drivers, sweep.driver)]
+    if arguments.n > 1:
+        driver = [os.path.join(arguments.drivers, "fsi-mpiexec"), "-n", str(arguments.n)] + driver
+    mesh = make_mesh(sweep, os.path.join(arguments.o, "meshes"))
+    print(f"== {sweep.part}: {sweep.name}", flush=True)
+    return subprocess.run([os.path.join(HERE, "..", "sweep", "run"), "-j", str(arguments.j),
+                           os.path.join(HERE, sweep.case + ".yaml"),
+                           os.path.join(HERE, sweep.points + ".csv"),
+                           os.path.join(arguments.o, sweep.name), "--", *driver, "-mesh", mesh],
+                          check=False).returncode
+
+
+def read_arguments(words):
+    parser = argparse.ArgumentParser(prog="examples/paper/run", add_help=False)
+    parser.add_argument("drivers")
+    parser.add_argument("root")
+    parser.add_argument("-j", type=int, default=int(os.environ.get("FSI_CORES", "1")))
+    parser.add_argument("-n", type=int, default=1)
+    parser.add_argument("-o")
+    parser.add_argument("words", nargs="*", metavar="PRESET|PART")
+    arguments = parser.parse_intermixed_args(words)
+    presets = [word for word in arguments.words if word in PRESETS]
+    arguments.parts = [word for word in arguments.words if word in PARTS] or list(PARTS)
+    unknown = [word for word in arguments.words if word not in PRESETS and word not in PARTS]
+    if unknown or len(presets) > 1:
+        parser.exit(2, f'"{(unknown or presets)[-1]}": one of {", ".join(PRESETS)}, and parts of '
+                    f'{", ".join(PARTS)} are expected\n')
+    arguments.preset = (presets or ["coarse"])[0]
+    arguments.o = os.path.abspath(arguments.o or os.path.join(arguments.root, arguments.preset))
+    return arguments
+
+
+def main():
+    arguments = read_arguments(sys.argv[1:])
+    os.makedirs(arguments.o, exist_ok=True)
+    preset, worst = PRESETS[arguments.preset], 0
+    for sweep in sweeps(preset):
+        if sweep.part in arguments.parts:
+            code = run(sweep, arguments)
+            if code in (2, 5):
+                return code
+            worst = max(worst, code)
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+#include "libfsi/run/forewords.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/gap.hpp"
+
+namespace fsi {
+namespace {
+
+/// Flow through a patch at one time.
+struct Flow {
+  Real mean = 0, top = 0;
+};
+
+Flow at(const FlowRate& flow, Real t, Real area, const Mesh& mesh) {
+  const Real mean = std::abs(flow.rate(t)) / area;
+  const Real middle = mesh.dim == 2 ? 1.5 : 2;  // of a parabola, over its mean
+  return {mean, flow.profile == InflowProfile::plug ? mean : middle * mean};
+}
+
+Flow at(const FixedVelocity& fixed, const Patch& patch, Real t, Real area, const Mesh& mesh) {
+  Sum through;
+  Real top = 0;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Vec3 u = fixed.u(mesh.Cf[f], t);
+    through.add(dot(u, mesh.Sf[f])), top = std::max(top, norm(u));
+  }
+  return {std::abs(through.total()) / area, global_max(top)};
+}
+
+Real area_of(const Patch& patch, const Mesh& mesh) {
+  Sum sum;
+  for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
+  return sum.total();
+}
+
+}  // namespace
+
+PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
+  PeakFlow peak;
+  for (const Patch& patch : mesh.patches) {
+    const auto found = conditions.find(patch.name);
+    if (found == conditions.end()) continue;
+    const auto* rate = std::get_if<FlowRate>(&found->second);
+    const auto* fixed = std::get_if<FixedVelocity>(&found->second);
+    if (rate == nullptr && fixed == nullptr) continue;
+    const Real A = area_of(patch, mesh);
+    const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
+    const int times = rate != nullptr ? 4000 : 100;
+    for (int i = 0; i <= times; ++i) {
+      const Real t = end * i / times;
+      const Flow flow = rate != nullptr ? at(*rate, t, A, mesh) : at(*fixed, patch, t, A, mesh);
+      if (flow.mean * D > peak.mean * peak.length) peak = {patch.name, t, flow.mean, flow.top, D};
+    }
+  }
+  return peak;
+}
+
+Real curvature(const Patch& patch, const Mesh& mesh) {
+  constexpr Real edge = 30;
+  std::map<Index, std::vector<Vec3>> around;  // a point: the normals there
+  Real most = 0;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    for (const Index p : mesh.face_points[f]) {
+      std::vector<Vec3>& there = around[mesh.vertex[p]];
+      for (const Vec3& other : there) {
+        const Real angle =
+            std::atan2(norm(cross(n, other)), dot(n, other)) * 180 / std::numbers::pi;
+        if (angle < edge) most = std::max(most, angle);
+      }
+      there.push_back(n);
+    }
+  }
+  return global_max(most);
+}
+
+Real mean_edge(const shapes::Shape& shape, const Mesh& mesh) {
+  std::array<Sum, 4> sums;  // of the edges and the count, within and everywhere
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Real h = edge(mesh, c);
+    sums[2].add(h), sums[3].add(1);
+    if (shape(mesh.C[c]) < 0) sums[0].add(h), sums[1].add(1);
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  return total[1] > 0 ? total[0] / total[1] : total[2] / total[3];
+}
+
+}  // namespace fsi

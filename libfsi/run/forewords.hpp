@@ -1,0 +1,32 @@
+#pragma once
+// What is known of a case before its first step.
+
+#include <string>
+
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/shapes/shapes.hpp"
+
+namespace fsi {
+
+/// The largest flow that a patch prescribes during a run.
+struct PeakFlow {
+  std::string patch;  ///< "" where no patch prescribes a flow
+  Real t = 0;         ///< when
+  Real mean = 0;      ///< |Q| / A
+  Real top = 0;       ///< largest velocity; of a parabola that of a round section (2-D: of a slit)
+  Real length = 0;    ///< (4 A / pi)^(1/2), in 2-D the patch's length
+};
+
+/// Collective. Of all patches and times up to `end` that of the largest mean * length. Flow rates
+/// are looked at 4000 times, velocities 100 times.
+PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
+
+/// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that
+/// share a point; angles of more than 30 degrees are edges between planes and do not count.
+Real curvature(const Patch& patch, const Mesh& mesh);
+
+/// Collective. Mean edge (mesh/gap.hpp) of the cells with their centre in the shape; of all cells
+/// where there are none.
+Real mean_edge(const shapes::Shape& shape, const Mesh& mesh);
+
+}  // namespace fsi

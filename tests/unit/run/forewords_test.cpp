@@ -1,0 +1,69 @@
+// What a run tells before its first step.
+
+#include "libfsi/run/forewords.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "libfsi/mesh/gap.hpp"
+#include "libfsi/shapes/shapes.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+TEST(Forewords, ThePeakOfAPulseIsFound) {
+  const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2, 0.5, 0.5}});
+  const OfTime pulse([](Real t) { return -0.1 - 0.4 * std::sin(std::numbers::pi * t); });
+  const Conditions conditions{{"left", FlowRate{.rate = pulse}}, {"right", Opening{}}};
+  const PeakFlow peak = peak_flow(conditions, mesh, 2);
+  EXPECT_EQ(peak.patch, "left");
+  EXPECT_NEAR(peak.t, 0.5, 1e-3);
+  EXPECT_NEAR(peak.mean, 0.5 / 0.25, 1e-6);
+  EXPECT_NEAR(peak.top, 2 * peak.mean, 1e-12) << "a parabola over a round section";
+  EXPECT_NEAR(peak.length, 1 / std::sqrt(std::numbers::pi), 1e-12);
+  EXPECT_EQ(peak_flow({{"left", Opening{}}, {"right", Opening{}}}, mesh, 2).patch, "");
+}
+
+TEST(Forewords, AVelocityCountsByWhatItCarries) {
+  const Mesh mesh = test::read_box({.n = {4, 8, 0}});
+  const auto u = [](const Vec3& x, Real t) { return Vec3{t * 4 * x.y * (1 - x.y), 0, 0}; };
+  const PeakFlow peak = peak_flow({{"left", FixedVelocity{u}}}, mesh, 3);
+  EXPECT_NEAR(peak.t, 3, 1e-12);
+  EXPECT_NEAR(peak.mean, 2, 0.02);
+  EXPECT_NEAR(peak.top, 3, 0.05);
+  EXPECT_NEAR(peak.length, 1, 1e-12);
+  const Conditions slit{{"left", FlowRate{.rate = 1}}, {"right", Opening{}}};
+  EXPECT_NEAR(peak_flow(slit, mesh, 1).top, 1.5, 1e-12) << "a parabola between two lines";
+}
+
+TEST(Forewords, ACurvedPatchIsToldFromPlanes) {
+  test::BoxFile box{.n = {12, 3, 3}};
+  const Mesh flat = test::read_box(box);
+  for (const Patch& patch : flat.patches) EXPECT_NEAR(curvature(patch, flat), 0, 1e-6);
+  box.moved = [](const Vec3& x) {
+    const Real r = 2 + x.y, angle = x.x;
+    return Vec3{r * std::sin(angle), r * std::cos(angle), x.z};
+  };
+  const Mesh bent = test::read_box(box);
+  const Real turn = 180 / std::numbers::pi / 12;
+  EXPECT_NEAR(curvature(bent.patch("top"), bent), 2 * turn, turn) << "of a quad mesh of the bend";
+  EXPECT_NEAR(curvature(bent.patch("back"), bent), 0, 1e-6);
+}
+
+TEST(Forewords, CellsAreCountedWhereTheSolidIs) {
+  const Mesh cubes = test::read_box({.n = {10, 10, 10}});
+  EXPECT_NEAR(mean_edge(shapes::sphere(0.3), cubes), 0.1, 1e-12);
+  test::BoxFile box{.n = {20, 10, 10}};
+  box.moved = [](const Vec3& x) { return Vec3{x.x * x.x, x.y, x.z}; };
+  const Mesh fine = test::read_box(box);
+  const Real at_left = mean_edge(shapes::translate(shapes::sphere(0.2), {0.2, 0.5, 0.5}), fine);
+  const Real at_right = mean_edge(shapes::translate(shapes::sphere(0.2), {0.8, 0.5, 0.5}), fine);
+  EXPECT_LT(at_left, at_right);
+  EXPECT_NEAR(mean_edge(shapes::translate(shapes::sphere(0.1), {9, 9, 9}), cubes), 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace fsi

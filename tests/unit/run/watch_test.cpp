@@ -1,0 +1,63 @@
+// Words on standard error: where they come and what they name.
+
+#include "libfsi/run/watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/shapes/shapes.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+const Vec3 centre{0.3, 0.6, 0};
+
+/// A disc at rest in a box that is periodic in all directions.
+struct Disc {
+  Mesh mesh = test::read_box({.n = {16, 16, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  Solver solver{mesh, {.rho = 1, .mu_f = 0.1}, {}};
+  Disc() {
+    solver.start([](const Vec3&) { return Vec3{}; });
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), centre), .G = 1, .mu = 0.1});
+  }
+};
+
+TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
+  Disc disc;
+  Watch watch(1);
+  EXPECT_EQ(watch.energy(0.05, disc.solver), "");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(watch.energy(0.2, disc.solver), "") << "a warning, and the run goes on";
+  const std::string warning = testing::internal::GetCapturedStderr();
+  const std::string end = watch.energy(0.6, disc.solver);
+  for (const std::string& text : {rank() == 0 ? warning : end, end}) {
+    const std::size_t at = text.find("strained most at (");
+    ASSERT_NE(at, std::string::npos) << text;
+    Vec3 x;
+    ASSERT_EQ(std::sscanf(text.c_str() + at, "strained most at (%lf, %lf, %lf)", &x.x, &x.y, &x.z),
+              3);
+    EXPECT_LT(norm(x - centre), 0.2 + 1.0 / 16) << text;
+    EXPECT_NE(text.find("an edge or a corner"), std::string::npos) << text;
+  }
+}
+
+TEST(Watch, RoundOffIsNoSolidThatLeaves) {
+  Disc disc;
+  Body& body = disc.solver.bodies().front();
+  Watch watch(1);
+  const auto said = [&](Real out) {
+    body.volume_out = out;
+    testing::internal::CaptureStderr();
+    watch.leaving(disc.solver);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(2e-30), "");
+  EXPECT_EQ(said(1e-6).empty(), rank() != 0);
+}
+
+}  // namespace
+}  // namespace fsi
