@@ -267,21 +267,22 @@ void Output::write_rows(const Limit& limit, Real dt) {
 }
 
 void Output::write_fields() {
-  solver_.synchronise();
-  const Mesh& mesh = solver_.mesh();
-  const State& s = solver_.state();
-  CellField<Real> Q(mesh);
-  analysis::q_criterion(Q, solver_.velocity_gradient());
-  std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
-  std::deque<CellField<SymTensor>> B;
-  for (const Body& body : solver_.bodies()) {
-    B.push_back(B_field(body, mesh));
-    const std::string of = body.name.empty() ? "" : "_" + body.name;
-    fields.push_back(io::named("alpha" + of, body.alpha));
-    fields.push_back(io::named("B" + of, B.back()));
-  }
-  fields_->write(s.t, fields);
-  fields_at_ = s.t;
+  solver_.at_one_time([this] {
+    const Mesh& mesh = solver_.mesh();
+    const State& s = solver_.state();
+    CellField<Real> Q(mesh);
+    analysis::q_criterion(Q, solver_.velocity_gradient());
+    std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
+    std::deque<CellField<SymTensor>> B;
+    for (const Body& body : solver_.bodies()) {
+      B.push_back(B_field(body, mesh));
+      const std::string of = body.name.empty() ? "" : "_" + body.name;
+      fields.push_back(io::named("alpha" + of, body.alpha));
+      fields.push_back(io::named("B" + of, B.back()));
+    }
+    fields_->write(s.t, fields);
+  });
+  fields_at_ = solver_.state().t;
 }
 
 /// The last good state of a run that failed, after its checkpoint: bringing the solid to the time

@@ -111,6 +111,23 @@ void Solver::synchronise() {
   mix_density();
 }
 
+void Solver::at_one_time(const std::function<void()>& use) {
+  if (!backup_) hold_backup();
+  backup_->keep();
+  const auto take_back = [&] {
+    backup_->restore();
+    resume();
+  };
+  try {
+    synchronise();
+    use();
+  } catch (const Error&) {
+    take_back();
+    throw;
+  }
+  take_back();
+}
+
 Real Solver::advance(Real dt) {
   if (!backup_) hold_backup();
   backup_->keep();

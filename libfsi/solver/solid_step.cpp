@@ -145,7 +145,15 @@ void Solver::separate_bodies() {
       if (first - bodies_.begin() != static_cast<std::ptrdiff_t>(i)) continue;
       if (std::any_of(first + 1, bodies_.end(), holds)) shared_.push_back(c);
     }
-  if (!separation_->apply(alphas_, shared_)) return;
+  // What is moved here is half old and half new in the mean, too.
+  const auto add_half = [&](Real sign) {
+    for (Body& body : bodies_)
+      for (Index c = 0; c < mesh_.n_cells; ++c) body.alpha_mid[c] += sign / 2 * body.alpha[c];
+  };
+  add_half(-1);
+  const bool moved = separation_->apply(alphas_, shared_);
+  add_half(1);
+  if (!moved) return;
   for (Body& body : bodies_)
     vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
 }

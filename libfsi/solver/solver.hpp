@@ -87,9 +87,12 @@ class Solver {
   /// report().failure then says why and the state is that before the step.
   Real advance(Real dt);
 
-  /// Collective. Brings a solid that stands between two steps to the state's time, for fields that
-  /// belong together. The next step goes on from there.
+  /// Collective. Brings a solid that stands between two steps to the state's time. The next step
+  /// goes on from there.
   void synchronise();
+  /// Collective. Calls `use` with the solids at the state's time, for fields that belong together,
+  /// and takes the solids back: the next step is the same to the last bit.
+  void at_one_time(const std::function<void()>& use);
 
   /// Adds all that the next step depends on to a checkpoint's list. After the solid is put in.
   void list(io::Snapshot& snapshot);

@@ -322,5 +322,25 @@ TEST(Recovery, EndsARunWhoseStepsBecomeTiny) {
   EXPECT_NE(failure.find(" in a quad of aspect ratio 1 "), std::string::npos) << failure;
 }
 
+// Fields are looked at between steps with the solid at the flow's time.
+TEST(Recovery, LookingAtTheFieldsChangesNothing) {
+  for (const bool simplex : {false, true})
+    for (const KinematicsKind kinematics :
+         {KinematicsKind::log_conformation, KinematicsKind::reference_map}) {
+      const Scene scene{.simplex = simplex, .kinematics = kinematics};
+      const Mesh mesh = mesh_of(scene);
+      Trial one(mesh, scene), other(mesh, scene);
+      for (int i = 0; i < 4; ++i) {
+        one.steps(3, 0.02), other.steps(3, 0.02);
+        other.solver.at_one_time([&] {
+          const Body& body = other.solver.bodies().front();
+          EXPECT_EQ(body.t, other.solver.state().t);
+          EXPECT_NE(body.t, one.solver.bodies().front().t);
+        });
+      }
+      EXPECT_EQ(one.state(), other.state()) << simplex;
+    }
+}
+
 }  // namespace
 }  // namespace fsi
