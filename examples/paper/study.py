@@ -22,7 +22,7 @@ class Preset:
 PRESETS = {"coarse": Preset((16, 20, 24), (16, 32, 64), 24, 24),
            "medium": Preset((16, 24, 32), (16, 32, 64, 128), 32, 32),
            "paper": Preset((32, 48, 64), (16, 32, 64, 128), 64, 48)}
-PIPE = ("tilt", "place", "thickness", "modulus", "viscosity", "size")
+PIPE = ("tilt", "place", "thickness", "modulus", "viscosity", "size", "kinematics")
 THROATS = (6, 3, 1)
 
 
@@ -118,6 +118,13 @@ def main():
             if code in (2, 5):
                 return code
             worst = max(worst, code)
+    if "figures" in arguments.parts:
+        import figures
+        for path in figures.draw(preset, arguments.o):
+            print("wrote", path)
+    if "claims" in arguments.parts:
+        import claims
+        print("wrote", claims.write(preset, arguments.o))
     return worst
 
 
