@@ -42,7 +42,7 @@ struct ElasticTerms {
 /// with c = 0.3 by 132 degrees, and what the surface excites on its way through the cells stays in
 /// a thin body; with 0.4 by 104. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, at least 0
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as
