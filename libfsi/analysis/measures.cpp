@@ -9,14 +9,16 @@ namespace fsi::analysis {
 
 Health health(const CellField<SymTensor>& B, const CellField<Real>& alpha, const Mesh& mesh) {
   constexpr Real none = std::numeric_limits<Real>::max();
-  Health h{none, -none, none};
+  Health h{.det_min = none, .det_max = -none, .eigenvalue_min = none};
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (!(alpha[c] > 0.5)) continue;
     const Real d = det(B[c]);
     h.det_min = std::min(h.det_min, d), h.det_max = std::max(h.det_max, d);
     h.eigenvalue_min = std::min(h.eigenvalue_min, eigen(B[c]).value[0]);
   }
-  h = {global_min(h.det_min), global_max(h.det_max), global_min(h.eigenvalue_min)};
+  h = {.det_min = global_min(h.det_min),
+       .det_max = global_max(h.det_max),
+       .eigenvalue_min = global_min(h.eigenvalue_min)};
   return h.det_min == none ? Health{} : h;
 }
 

@@ -26,7 +26,7 @@ std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real a
 struct MomentumTerms {
   const BoundaryField<Vec3>& u_b;      ///< at t^n
   const BoundaryField<Vec3>& u_b_new;  ///< at t^n+1
-  const CellField<Vec3>& grad_p;       ///< at t^n
+  const CellField<Vec3>& grad_p;       ///< at t^(n-1/2)
   const CellField<Tensor>& L;          ///< read where the viscosity varies or convection is upwind
   const std::vector<Tensor>& L_f;      ///< at irregular faces
   const FaceField<Real>& phi;          ///< volume flux at t^n
@@ -44,7 +44,7 @@ struct MomentumTerms {
 /// convection, of second for the explicit viscous rest), in increments w = u* - u^n:
 ///   rho V w / dt - sum_f (theta_f mu + kappa) g (w_N - w_P)
 ///     = -rho AB3(conv) + visc(u^n) - visc((theta_f - 1/2) (dt / dt_old) (u^n - u^(n-1)))
-///       + AB2(rest) + V (-grad p^n + f + S).
+///       + AB2(rest) + V (-grad p^(n-1/2) + f + S).
 /// What moves with a body through the mesh changes by Courant numbers in a step: there AB2 is off
 /// by 5/12 Co^2 of a wave's second difference, more than half of what the linear face value is
 /// (1/6) at Co = 0.5. Between Courant numbers of 0.66 and 0.9 AB3 gives way to AB2.

@@ -16,7 +16,7 @@ namespace fsi::flow {
 
 /// What enters the face flux besides u*.
 struct FluxTerms {
-  const std::vector<Tensor>& L_f;           ///< of u*, at irregular faces
+  const std::vector<Tensor>& L_f;           ///< of u*, at irregular faces; of u^n beside a surface
   const CellField<Real>& p;                 ///< pressure at the cells
   const CellField<Vec3>& grad_p;            ///< its averaged gradient
   const std::vector<Vec3>& grad_p_f;        ///< of p at irregular faces
@@ -33,13 +33,13 @@ struct FluxTerms {
   const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
   Real stress = 0;                         ///< scale of the elastic stress; 0: there is none
   Real flux_strain =
-      0;  ///< dt G lambda_B / elastic where the flux strains the solid; 0: it does not
+      0;  ///< dt G alpha_f lambda_B / elastic where the flux strains the solid; 0: it does not
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
 ///   phi = U(u*)_f . S + d_f { U(grad p)_f . S - (g (p_N - p_P) + k . (grad p)_f) + g c_f },
 ///   U(u)_f = lambda u_P + (1 - lambda) u_N (+ L_f . (x_f - x_m) for u*),
-///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G lambda_B) / |d|^2).
+///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G alpha_f lambda_B) / |d|^2).
 /// Each cell has the weight of its own part of the way, x_m = x_P + (1 - lambda) d. Then the sum
 /// over faces of U . S and the pressure's gradient are adjoint but for the skewness, and with d_f =
 /// dt and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A the Laplacian of the

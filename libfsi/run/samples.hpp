@@ -11,7 +11,7 @@ namespace fsi {
 
 /// How a column runs between two rows.
 enum class Course {
-  smooth,     ///< linear in the time of the flow
+  smooth,     ///< linear in the time of the flow; a number of the solid stays half a step behind
   shape,      ///< linear in that of the solid, which stands half a step off
   energy,     ///< the same, and never below 0
   pressure,   ///< smooth, but not known before the first step

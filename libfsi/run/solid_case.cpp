@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <utility>
 
@@ -16,12 +17,27 @@ Real length(Options& options, const std::string& name, Real fallback, const std:
   return options.real(name, fallback, {.help = help, .unit = "length", .positive = true});
 }
 
+/// Errors: Error{input} where a size is given that the shape does not take.
+void refuse_sizes_of_others(const Options& options, const std::string& of,
+                            const std::string& name) {
+  constexpr std::array<std::array<const char*, 2>, 5> sizes{
+      {{"major_radius", "torus"},
+       {"minor_radius", "torus"},
+       {"semi_axes", "ellipsoid"},
+       {"radius", "sphere, disk, cylinder, capsule"},
+       {"height", "disk, cylinder, capsule"}}};
+  for (const auto& [size, shapes] : sizes)
+    require(std::string(shapes).find(name) != std::string::npos || !options.given(of + size),
+            "option -" + of + size + " is for " + shapes + ", but -" + of + "shape is " + name);
+}
+
 /// The shape about the origin, its axis along x. With -help and for "none" every shape's options
 /// are read.
 shapes::Shape undeformed(Options& options, const std::string& of, const std::string& name,
                          Real& thickness) {
   shapes::Shape shape = shapes::sphere(1);
   const bool all = options.help() || name == "none";
+  if (!all) refuse_sizes_of_others(options, of, name);
   if (all || name == "torus") {
     const Real R = length(options, of + "major_radius", 0.3,
                           "torus: radius of the circle in the middle of its tube");

@@ -16,7 +16,7 @@ namespace fsi::solid {
 /// it; what it does to a speck the extension undoes), with face values by Koren's limiter, Heun's
 /// method over dt, or parts of it (strain.hpp), with phi and L frozen, then det B = 1 and the
 /// extension into the cells around. B = exp(psi) is positive definite whatever happens. Second
-/// order in space; the solver makes it so in time by taking it half a step ahead of the flow.
+/// order in space, and in time: a step takes it from half a step behind the flow to half one ahead.
 class LogConformation {
  public:
   /// mesh must outlive it.
@@ -70,7 +70,7 @@ class LogConformation {
   CellField<SymTensor> psi;  ///< log B
 
  private:
-  /// Sets L_: carrier.strain, or the velocity gradient without the divergence of the cell
+  /// Sets L_: snapshot.strain, or the velocity gradient without the divergence of the cell
   /// velocities (solenoidal.hpp), in the solid's outermost cells that of its own side
   /// (one_sided.hpp), by which they take up no more energy over dt than the force takes from the
   /// flow (work_bound.hpp).

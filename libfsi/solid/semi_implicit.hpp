@@ -33,7 +33,7 @@ struct ElasticTerms {
 
 /// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
 ///
-///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha lambda_B
+///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha_f lambda_B
 ///
 /// stands in for the change of the elastic stress over the step, which with leapfrog is
 /// div(dt G B . grad u) by div u = 0; of another law G lambda_B is its largest modulus
@@ -42,7 +42,7 @@ struct ElasticTerms {
 /// with c = 0.3 by 132 degrees, and what the surface excites on its way through the cells stays in
 /// a thin body; with 0.4 by 104. It vanishes with the change of u over a step.
 ///
-///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha lambda_B)^(1/2) - alpha mu_s, at least 0
+///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
 /// compares the compact gradient with the averaged one. The averaged stress does not see what
 /// alternates from cell to cell; this damps it at the rate of the elastic wave through a cell, as

@@ -78,8 +78,8 @@ bool Solver::stuck(Real dt) {
 Solver::Calls::Calls(Profile& profile)
     : hold_shape(profile.add("hold_shape", "vof")),
       advance_interface(profile.add("advance_interface", "vof")),
-      advect_pressure_jump(profile.add("advect_pressure_jump", "solid")),
       separate_bodies(profile.add("separate_bodies", "vof")),
+      advect_pressure_jump(profile.add("advect_pressure_jump", "solid")),
       set_pressure_gradient(profile.add("set_pressure_gradient", "momentum")),
       set_velocity_gradient(profile.add("set_velocity_gradient", "momentum")),
       transport_memory(profile.add("transport_memory", "solid")),

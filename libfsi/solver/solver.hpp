@@ -59,8 +59,8 @@ struct StepReport {
   std::string failure;     ///< why the run cannot go on; empty while it can
 };
 
-/// Advances a State by the paper's scheme 1. Holds what a step needs so that a step allocates
-/// nothing.
+/// Advances a State by the calls of doc/theory/step.md; the kinematics of the paper's scheme is
+/// left_cauchy_green. Holds what a step needs so that a step allocates nothing.
 class Solver {
  public:
   /// Collective. mesh must outlive the solver.
@@ -170,8 +170,8 @@ class Solver {
   // The calls of a step: doc/theory/step.md. What each sets stands first.
   void hold_shape(Body& body);
   void advance_interface(Body& body, Real t);
-  void advect_pressure_jump(CellField<Real>& p, const Body& body);
   void separate_bodies();
+  void advect_pressure_jump(CellField<Real>& p, const Body& body);
   void set_pressure_gradient(CellField<Vec3>& grad_p, const State& state);
   void set_velocity_gradient(CellField<Tensor>& L, const State& state);
   void clear_forces();
@@ -247,7 +247,7 @@ class Solver {
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);
-    int hold_shape, advance_interface, advect_pressure_jump, separate_bodies, set_pressure_gradient,
+    int hold_shape, advance_interface, separate_bodies, advect_pressure_jump, set_pressure_gradient,
         set_velocity_gradient, transport_memory, transport_elastic, mix_viscosity, mix_density,
         add_elastic_force, add_semi_implicit, add_body_force, balance_weight, predict_momentum,
         predict_flux, project, hold_mean_velocity, check;

@@ -34,7 +34,6 @@ constexpr Jet operator-(const Jet& a, const Jet& b) {
   return {a.f - b.f, a.d1 - b.d1, a.d2 - b.d2, a.d11 - b.d11, a.d12 - b.d12, a.d22 - b.d22};
 }
 constexpr Jet operator*(const Jet& a, const Jet& b) {
-  ///@}
   return {a.f * b.f,
           a.d1 * b.f + a.f * b.d1,
           a.d2 * b.f + a.f * b.d2,
@@ -42,6 +41,7 @@ constexpr Jet operator*(const Jet& a, const Jet& b) {
           a.d12 * b.f + a.d1 * b.d2 + a.d2 * b.d1 + a.f * b.d12,
           a.d22 * b.f + 2 * a.d2 * b.d2 + a.f * b.d22};
 }
+///@}
 /// g(a) of g, g' and g'' at a.f.
 constexpr Jet chain(const Jet& a, Real g, Real g1, Real g2) {
   return {g,

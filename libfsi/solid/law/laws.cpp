@@ -1,6 +1,23 @@
 #include "libfsi/solid/law/laws.hpp"
 
+#include "libfsi/core/error.hpp"
+
 namespace fsi::solid {
+namespace {
+
+/// Errors: Error{input} where an option of `law` is given that the law named does not take.
+template <class Shipped>
+void refuse_options_of(Shipped law, const Options& options, const std::string& option,
+                       const std::string& named) {
+  const auto taken = options.values();
+  Options aside(options);
+  law.read(aside, option);
+  for (const auto& [name, value] : aside.values())
+    require(taken.contains(name) || !options.given(name),
+            "option -" + name + " is for " + law.name + ", but -" + option + " is " + named);
+}
+
+}  // namespace
 
 Law read_law(Options& options, const std::string& option) {
   Laws laws;
@@ -15,6 +32,7 @@ Law read_law(Options& options, const std::string& option) {
           if (name == shipped.name) law = Law(shipped);
         };
         (take(one), ...);
+        if (!options.help()) (refuse_options_of(one, options, option, name), ...);
         return law;
       },
       laws);

@@ -16,7 +16,7 @@
 namespace fsi::solid {
 namespace {
 
-/// A law, and half its 2 W_1 and 2 W_2 and W by hand.
+/// A law, and its 2 W_1, 2 W_2 and W by hand.
 struct Known {
   Law law;
   std::function<Real(Real)> w1;  ///< 2 W_1 by I1
