@@ -11,8 +11,8 @@ from typing import Callable
 import numpy as np
 
 import study
-from measures import (HERE, Missing, Runs, at, end, first_time, gradient, leaves, listed, loss, peaks, psi, rises,
-                      smooth, turned)
+from measures import (Missing, Runs, at, end, first_time, gradient, leaves, listed, loss, moving_mean, peaks, psi,
+                      rises, turned)
 
 INCLINED, EMPTY = (15, 30, 45, 60), 0.16
 SHAPES = ("torus", "disk", "sphere", "ellipsoid")
@@ -52,7 +52,7 @@ def _flow(runs):
 
 @claim("3", "the way of the disc's centre converges with the mesh, of first order or better")
 def _disc(runs):
-    reference = os.path.join(HERE, "..", "..", "tests", "verification", "data",
+    reference = os.path.join(study.HERE, "..", "..", "tests", "verification", "data",
                              "softdisc_reference_G0.1.csv")
     if not os.path.exists(reference):
         raise Missing("the reference of the disc")
@@ -72,20 +72,20 @@ def _disc(runs):
 
 @claim("4A", "a torus at 45 degrees turns to about 80 by t = 20, never back")
 def _base(runs):
-    angle = psi(runs.tilt(45), 45)
+    angle = psi(runs.tilt(45))
     back = np.max(np.maximum.accumulate(angle) - angle)
     return f"{angle[-1]:.1f} degrees, back by {back:.2f}", abs(angle[-1] - 80) < 5 and back < 0.5
 
 
 @claim("4B", "15, 30, 45 and 60 degrees end near 80")
 def _inclined(runs):
-    ends = [psi(runs.tilt(a), a)[-1] for a in INCLINED]
+    ends = [psi(runs.tilt(a))[-1] for a in INCLINED]
     return listed(zip(INCLINED, ends), "-> {:.1f}"), all(abs(e - 80) < 5 for e in ends)
 
 
 @claim("4B", "75 degrees stays, with slight fluctuations")
 def _seventyfive(runs):
-    angle = psi(runs.tilt(75), 75)
+    angle = psi(runs.tilt(75))
     return f"{angle.min():.1f} to {angle.max():.1f}, at the end {angle[-1]:.1f}", \
         abs(angle - 75).max() < 7
 
@@ -117,7 +117,7 @@ def _waiting(runs):
 
 @claim("4C", "tori off the centre at 0 degrees end near 80")
 def _off_centre(runs):
-    ends = [psi(run, 0)[-1] for run in runs.place()]
+    ends = [psi(run)[-1] for run in runs.place()]
     return ", ".join(f"{e:.1f}" for e in ends), all(abs(e - 80) < 5 for e in ends)
 
 
@@ -182,7 +182,7 @@ def _order(runs):
     solid = runs.tilt(45).tables["solid"]
     half = []
     for values in (-solid["bending_prime"], turned(runs.tilt(45)), 1 - solid["aspect_outer"]):
-        values = abs(smooth(values - values[0], solid["t"]))
+        values = abs(moving_mean(solid["t"], values - values[0]))
         half.append(first_time(solid["t"], values > 0.5 * values[solid["t"] <= 20].max()))
     return "half of the largest at t = " + ", ".join(f"{t:.1f}" for t in half), rises(half)
 
@@ -208,7 +208,7 @@ def _overshoot(runs):
     found = {}
     for ratio in ("11/5", "3", "13/3"):
         solid = runs.thick(ratio).tables["solid"]
-        size = abs(smooth(solid["bending_prime"], solid["t"]))
+        size = abs(moving_mean(solid["t"], solid["bending_prime"]))
         found[ratio] = float(size.max() / size[-1] - 1)
     return "largest over last, less 1: " + listed(found.items(), "{:.2f}"), \
         found["13/3"] > 0.05 > max(found["11/5"], found["3"])
@@ -241,9 +241,9 @@ def _scheme(runs):
     found = {"log B": runs.tilt(45)}
     for kind in ("reference_map", "left_cauchy_green"):
         found[kind] = runs("kinematics", f"solid_kinematics={kind}")
-    return "; ".join(f"{name} {psi(run, 45)[-1]:.1f} degrees, outer aspect {end(run, 'aspect_outer'):.3f}, "
+    return "; ".join(f"{name} {psi(run)[-1]:.1f} degrees, outer aspect {end(run, 'aspect_outer'):.3f}, "
                      f"bending {end(run, 'bending_prime'):.1f}" for name, run in found.items()), \
-        abs(psi(found["left_cauchy_green"], 45)[-1] - 80) < 5
+        abs(psi(found["left_cauchy_green"])[-1] - 80) < 5
 
 
 # Flow and pressure
@@ -297,7 +297,7 @@ def _others_pass(runs):
 @claim("11D", "the pressure span of the torus has two maxima")
 def _two_peaks(runs):
     flow = runs.shape("torus").tables["flow"]
-    span = smooth(flow["pressure_span"], flow["t"], 0.3)[flow["t"] > 0.5]
+    span = moving_mean(flow["t"], flow["pressure_span"], 0.3)[flow["t"] > 0.5]
     count = peaks(span, 0.05 * (span.max() - span.min()))
     return f"{count} maxima, the largest {span.max():.2f}", count == 2
 

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 import study
-from figures_parts import (Missing, convergence, empty, fsi, grid_lines, head, nearest, plain, points, style,
+from figures_parts import (Missing, convergence, empty, fsi, grid_lines, head, nearest, plain, style,
                            time_axis)
 from fsi import sections
 
@@ -45,7 +45,7 @@ def norms(snapshot):
 def figure_2(runs):
     """The flow in an empty pipe from a plug: profiles and errors on three meshes."""
     found = {sweep.parameters["n"]: runs.run(sweep.name, point) for sweep in runs.sweeps("flow")
-             for point in points(sweep.points)}
+             for point in study.points(sweep.points)}
     found = {n: run for n, run in found.items() if run and run.items}
     if not found:
         raise Missing(os.path.join(runs.out, runs.sweeps("flow")[0].name))

@@ -1,7 +1,5 @@
 """What the figures share: the runs of the study, panels over time, and pictures of bodies."""
-import csv
 import os
-import sys
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -12,9 +10,8 @@ import numpy as np
 
 import study
 
-sys.path.insert(0, os.path.join(study.HERE, os.pardir, os.pardir, "python"))
-import fsi  # noqa: E402
-from fsi import cells, render, scene, style  # noqa: E402
+from measures import fsi, moving_mean, turn
+from fsi import cells, render, scene, style
 
 TIME = r"$t^*$ in units of $D/2\bar{u}$ = 10 ms"
 STYLES = ("-", "--", ":", "-.")
@@ -92,7 +89,7 @@ class Study:
     def family(self, name):
         """The members of a family that are there, in order; Missing where there is none."""
         family = FAMILIES[name]
-        runs = [self.run(name, point) for point in points(name)]
+        runs = [self.run(name, point) for point in study.points(name)]
         if any(runs) and family.base:
             runs.append(self.run("tilt", family.base))
         runs = [run for run in runs if run and run.tables["solid"]]
@@ -113,13 +110,6 @@ class Study:
             return []
 
 
-def points(name):
-    """The folders of the points of a table, in its order."""
-    with open(os.path.join(study.HERE, name + ".csv"), encoding="utf-8") as file:
-        rows = list(csv.DictReader(file, skipinitialspace=True))
-    return [row.get("name") or "_".join(f"{k}={v}" for k, v in row.items() if v != "-") for row in rows]
-
-
 def nearest(run, time, within=np.inf):
     """The number of the field file nearest to a time; None where none is so near."""
     away = [abs(t - time) for t in run.times]
@@ -136,27 +126,6 @@ def empty(ax, words):
     ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", va="center", color="0.5")
     ax.set_xticks([])
     ax.set_yticks([])
-
-
-def moving_mean(time, values, width=1.0):
-    """Means over `width` of time about each, over less at the ends; NaN where there is no value."""
-    known = np.isfinite(values)
-    if known.sum() < 2:
-        return values
-    at, of = time[known], values[known]
-    total = np.append(0, np.cumsum(0.5 * (of[1:] + of[:-1]) * np.diff(at)))
-    low, high = (np.clip(at + part * width, at[0], at[-1]) for part in (-0.5, 0.5))
-    found = np.full(len(values), np.nan)
-    found[known] = (np.interp(high, at, total) - np.interp(low, at, total)) / (high - low)
-    return found
-
-
-def turn(solid):
-    """The angle between axis and x in degrees, which grows past 90 and 180 where the ring turns on."""
-    across = np.stack([solid["ny"], solid["nz"]], axis=1)
-    passes = np.einsum("ij,ij->i", across[1:], across[:-1]) < 0  # the axis goes through x to the other side
-    side = np.append(1, np.cumprod(np.where(passes, -1, 1)))
-    return abs(np.degrees(np.unwrap(np.arctan2(side * np.linalg.norm(across, axis=1), solid["nx"]))))
 
 
 def column(run, name, table="solid"):

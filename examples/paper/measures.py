@@ -1,13 +1,13 @@
 """What the claims are measured by: the runs of a study, and numbers of one run."""
-import csv
 import os
 import sys
 
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "python"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "python"))
 import fsi  # noqa: E402
+import study  # noqa: E402
+
 
 class Missing(Exception):
     """A run that a claim needs is not complete."""
@@ -34,9 +34,7 @@ class Runs:
         return self("tilt", f"solid_angle={angle}")
 
     def place(self):
-        with open(os.path.join(HERE, "place.csv"), encoding="utf-8") as file:
-            rows = list(csv.DictReader(file, skipinitialspace=True))
-        return [self("place", "_".join(f"{k}={v}" for k, v in row.items())) for row in rows]
+        return [self("place", point) for point in study.points("place")]
 
     def thick(self, ratio):
         if ratio == "3":
@@ -61,24 +59,35 @@ def end(run, column, table="solid"):
     return float(run.tables[table][column][-1])
 
 
+def turn(solid):
+    """The angle between axis and x in degrees, which grows past 90 and 180 where the ring turns on."""
+    across = np.stack([solid["ny"], solid["nz"]], axis=1)
+    passes = np.einsum("ij,ij->i", across[1:], across[:-1]) < 0  # the axis goes through x to the other side
+    side = np.append(1, np.cumprod(np.where(passes, -1, 1)))
+    return abs(np.degrees(np.unwrap(np.arctan2(side * np.linalg.norm(across, axis=1), solid["nx"]))))
+
+
+def psi(run):
+    """The angle of a run's axis to x over time, as `turn` has it."""
+    return turn(run.tables["solid"])
+
+
 def turned(run):
-    """Degrees by which the axis has turned about z since the start, over time; the axis has no sign."""
-    solid = run.tables["solid"]
-    angle = 0.5 * np.unwrap(2 * np.arctan2(solid["ny"], solid["nx"]))
-    return np.degrees(angle - angle[0])
+    """The degrees by which it has changed since the start."""
+    return psi(run) - psi(run)[0]
 
 
-def psi(run, start):
-    """The angle of the axis to x over time, which goes on past 90 degrees; `start` at first."""
-    angle = turned(run)
-    return start + angle * (1 if angle[np.argmax(abs(angle))] >= 0 else -1)
-
-
-def smooth(values, times, over=1.0):
-    """The mean over a stretch of time about each time."""
-    count = max(1, int(round(over / np.median(np.diff(times)))))
-    padded = np.pad(values, (count // 2, count - 1 - count // 2), mode="edge")
-    return np.convolve(padded, np.ones(count) / count, mode="valid")
+def moving_mean(time, values, width=1.0):
+    """Means over `width` of time about each, over less at the ends; NaN where there is no value."""
+    known = np.isfinite(values)
+    if known.sum() < 2:
+        return values
+    at, of = time[known], values[known]
+    total = np.append(0, np.cumsum(0.5 * (of[1:] + of[:-1]) * np.diff(at)))
+    low, high = (np.clip(at + part * width, at[0], at[-1]) for part in (-0.5, 0.5))
+    found = np.full(len(values), np.nan)
+    found[known] = (np.interp(high, at, total) - np.interp(low, at, total)) / (high - low)
+    return found
 
 
 def first_time(times, there):

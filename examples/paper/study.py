@@ -1,5 +1,6 @@
 """Runs the parts of the study that examples/paper/run is asked for, each a sweep over a table here."""
 import argparse
+import csv
 import os
 import subprocess
 import sys
@@ -55,6 +56,13 @@ def sweeps(preset):
     for throat in THROATS:
         yield Sweep("stenosis", f"throat-{throat}", "shapes", "fsi-stenosis", "stenosis", 3, "stenosis",
                     {"n": preset.stenosis, "throat": throat})
+
+
+def points(name):
+    """The folders of the points of a table, in its order."""
+    with open(os.path.join(HERE, name + ".csv"), encoding="utf-8") as file:
+        rows = list(csv.DictReader(file, skipinitialspace=True))
+    return [row.get("name") or "_".join(f"{k}={v}" for k, v in row.items() if v != "-") for row in rows]
 
 
 def make_mesh(sweep, folder):

@@ -159,6 +159,10 @@ constexpr SymTensor both_ways(const Vec3& a, const Vec3& b) {
   return {2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
           2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
 }
+/// a : b = a_ij b_ij.
+constexpr Real contract(const SymTensor& a, const SymTensor& b) {
+  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2 * (a.xy * b.xy + a.xz * b.xz + a.yz * b.yz);
+}
 /// t_ii.
 constexpr Real trace(const SymTensor& t) { return t.xx + t.yy + t.zz; }
 /// The determinant.

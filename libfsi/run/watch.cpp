@@ -49,13 +49,13 @@ std::string place_of_strain(const Solver& solver) {
 
 std::string Watch::energy(Real made, const Solver& solver) {
   constexpr Real odd = 0.1, wrong = 0.5;
-  if (made < odd) return "";
+  if (made < odd || (told_of_energy_ && made <= wrong)) return "";
   const std::string text =
       print("at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of flow.csv)",
             solver.state().t, 100 * made) +
       ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity" +
       place_of_strain(solver);
-  if (!told_of_energy_ && made <= wrong) say("warning", text);
+  if (made <= wrong) say("warning", text);
   told_of_energy_ = true;
   return made > wrong ? text : "";
 }

@@ -30,12 +30,8 @@ Real zone(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   return wall ? inner_zone : surrounded_zone;
 }
 
-Real product(const SymTensor& a, const SymTensor& b) {
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2 * (a.xy * b.xy + a.xz * b.xz + a.yz * b.yz);
-}
-
 Real product(const SymGradient& a, const SymGradient& b) {
-  return product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
+  return contract(a.x, b.x) + contract(a.y, b.y) + contract(a.z, b.z);
 }
 
 }  // namespace

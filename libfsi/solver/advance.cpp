@@ -96,9 +96,12 @@ Solver::Calls::Calls(Profile& profile)
       hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
       check(profile.add("check", "flux")) {}
 
+bool Solver::stands_apart() const {
+  return std::ranges::any_of(bodies_, [&](const Body& body) { return body.t != state_.t; });
+}
+
 void Solver::synchronise() {
-  const auto stands_apart = [&](const Body& body) { return body.t != state_.t; };
-  if (std::ranges::none_of(bodies_, stands_apart)) return;
+  if (!stands_apart()) return;
   for (Body& body : bodies_) hold_shape(body);
   for (Body& body : bodies_) advance_interface(body, state_.t);
   separate_bodies();
@@ -112,6 +115,7 @@ void Solver::synchronise() {
 }
 
 void Solver::at_one_time(const std::function<void()>& use) {
+  if (!stands_apart()) return use();
   if (!backup_) hold_backup();
   backup_->keep();
   const auto take_back = [&] {

@@ -76,7 +76,7 @@ void Solver::put_solid(const Solid& solid) {
   body.t = state_.t;
   require_place(body, bodies_, mesh_);
   set_modes(body);
-  alphas_.push_back(&body.alpha);
+  fractions_.push_back({.alpha = &body.alpha, .mid = &body.alpha_mid});
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());
     if (!mixed_mu_) mixed_mu_.emplace(mesh_);
@@ -145,15 +145,7 @@ void Solver::separate_bodies() {
       if (first - bodies_.begin() != static_cast<std::ptrdiff_t>(i)) continue;
       if (std::any_of(first + 1, bodies_.end(), holds)) shared_.push_back(c);
     }
-  // What is moved here is half old and half new in the mean, too.
-  const auto add_half = [&](Real sign) {
-    for (Body& body : bodies_)
-      for (Index c = 0; c < mesh_.n_cells; ++c) body.alpha_mid[c] += sign / 2 * body.alpha[c];
-  };
-  add_half(-1);
-  const bool moved = separation_->apply(alphas_, shared_);
-  add_half(1);
-  if (!moved) return;
+  if (!separation_->apply(fractions_, shared_)) return;
   for (Body& body : bodies_)
     vof::reconstruct(body.interface, body.alpha, mesh_, body.reconstruct_scratch, body.planes());
 }

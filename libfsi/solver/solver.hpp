@@ -167,6 +167,8 @@ class Solver {
   Real mean_velocity() const { return forcing_ ? forcing_->mean(state_.phi) : 0; }
 
  private:
+  /// Whether some body's interface is at another time than the flow.
+  bool stands_apart() const;
   // The calls of a step: doc/theory/step.md. What each sets stands first.
   void hold_shape(Body& body);
   void advance_interface(Body& body, Real t);
@@ -288,7 +290,7 @@ class Solver {
   };
   std::optional<Heavy> heavy_;
   std::optional<vof::Separation> separation_;  // where there are several solids
-  std::vector<CellField<Real>*> alphas_;       // of the bodies
+  std::vector<vof::Fractions> fractions_;      // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
   std::optional<StrainByFlux> by_flux_;
   bool leaves_ = false;  // whether a solid may leave the mesh

@@ -9,11 +9,6 @@
 namespace fsi::vof {
 namespace {
 
-/// a : b.
-Real contract(const SymTensor& a, const SymTensor& b) {
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2 * (a.xy * b.xy + a.xz * b.xz + a.yz * b.yz);
-}
-
 /// The part of L along the plane of normal n, symmetric.
 SymTensor along_plane(const Tensor& L, const Vec3& n) {
   const SymTensor S{L.xx, (L.xy + L.yx) / 2, (L.xz + L.zx) / 2, L.yy, (L.yz + L.zy) / 2, L.zz};
