@@ -40,8 +40,7 @@ std::string place_of_strain(const Solver& solver) {
   if (all[best] == std::numeric_limits<Real>::max()) return "";
   return print(
       "; the solid is strained most at (%.4g, %.4g, %.4g), where the smallest eigenvalue "
-      "of B is %.3g: at an edge or a corner of the wall neither a finer mesh nor a shorter "
-      "step helps, but another place to start from",
+      "of B is %.3g",
       all[best + 1], all[best + 2], all[best + 3], all[best]);
 }
 

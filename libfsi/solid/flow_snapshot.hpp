@@ -45,6 +45,7 @@ struct Contact {
 struct CutFaces {
   const FaceField<Real>& alpha_f;  ///< part of solid between the centres of the two cells
   const FaceField<Vec3>& normal;   ///< of the surface
+  const CellField<Real>& alpha;    ///< fractions of the cells
 };
 
 class ReferenceMap;

@@ -4,7 +4,7 @@ namespace fsi::solid {
 
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c) {
-  const auto& [alpha_f, normal] = *snapshot.cuts;
+  const auto& [alpha_f, normal, fraction] = *snapshot.cuts;
   Tensor sum;
   Real volume = 0;
   const auto add = [&](Index f, Real w, Real mean, const Vec3& rise, const Tensor& L_f) {
@@ -18,12 +18,12 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
     if (f >= mesh.n_internal) {
       const Index b = f - mesh.n_internal;
       if (snapshot.contact != nullptr && snapshot.contact->touched[b] != 0)
-        add(f, 1, alpha[P], snapshot.contact->u_b[b] - snapshot.u[P], L);
+        add(f, 1, fraction[P], snapshot.contact->u_b[b] - snapshot.u[P], L);
       continue;
     }
     const Index N = mesh.neighbour[f], other = P == c ? N : P;
     const Real part = P == c ? 1 - snapshot.weights.lambda[f] : snapshot.weights.lambda[f];
-    add(f, alpha[other] >= alpha_known ? part : 1, (alpha[P] + alpha[N]) / 2,
+    add(f, alpha[other] >= alpha_known ? part : 1, (fraction[P] + fraction[N]) / 2,
         snapshot.u[N] - snapshot.u[P], extension.inner(other) ? 0.5 * (L + snapshot.L[other]) : L);
   }
   return volume > 0 ? (1 / volume) * sum : Tensor{};

@@ -23,7 +23,7 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 ///   e = u_N - u_P - L_f . d,   W = sum_f w alpha' d . S_f / dim,
 /// L_f the mean of L and that of an inner cell behind the face, else L, alpha' that of both cells,
 /// n the surface's normal, w the cell's part of the face's stress, 1 where the other cell goes on
-/// with it. Zero where no face has a part of it.
+/// with it. Zero where no face has a part of it. alpha: of what is known.
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 

@@ -24,7 +24,8 @@ std::string name_of(const Kinematics& kinematics) {
 }
 
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
-           const Physics& physics, const std::vector<Patch>& mirrors)
+           const Physics& physics, const std::vector<Patch>& mirrors,
+           const std::vector<Patch>& walls)
     : mesh(mesh_),
       weights(weights_),
       name(solid.name),
@@ -58,6 +59,12 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   hold_parts(physics);
+  if (extended() && solid::has_simplices(mesh)) {
+    off_walls.emplace(mesh);
+    for (const Patch& patch : walls)
+      for (Index f = patch.begin; f < patch.end; ++f) off_walls->at_wall[mesh.owner[f]] = 1;
+    mesh.halo.update(off_walls->at_wall);
+  }
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Folded::refit);
@@ -144,6 +151,19 @@ void Body::set_touched(std::span<const Index> cells, std::span<const char> open)
     }
 }
 
+void Body::set_strain_fraction() {
+  if (!off_walls) return;
+  auto& [at_wall, known] = *off_walls;
+  known.assign(alpha);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (at_wall[c] > 0 && alpha[c] >= solid::alpha_known &&
+        std::ranges::any_of(mesh.cell_neighbours[c], [&](Index n) {
+          return at_wall[n] == 0 && alpha[n] >= solid::alpha_known;
+        }))
+      known[c] = 0;
+  mesh.halo.update(known);
+}
+
 bool Body::count_out() {
   constexpr Real speck = 0.01, rest = 1e-3;
   Sum out;
@@ -192,6 +212,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
+  set_strain_fraction();
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   if (remembers()) memory->resume(alpha, grad);
   update_B();

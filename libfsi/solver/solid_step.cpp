@@ -68,10 +68,14 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
 }
 
 void Solver::put_solid(const Solid& solid) {
-  std::vector<Patch> mirrors;
-  for (std::size_t i = 0; i < conditions_.size(); ++i)
-    if (std::holds_alternative<Slip>(conditions_[i])) mirrors.push_back(mesh_.patches[i]);
-  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors);
+  std::vector<Patch> mirrors, walls;
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& here = conditions_[i];
+    if (std::holds_alternative<Slip>(here)) mirrors.push_back(mesh_.patches[i]);
+    if (std::holds_alternative<Wall>(here) || std::holds_alternative<FixedVelocity>(here))
+      walls.push_back(mesh_.patches[i]);
+  }
+  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls);
   Body& body = bodies_.back();
   body.t = state_.t;
   require_place(body, bodies_, mesh_);
@@ -196,7 +200,9 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
-  const solid::CutFaces cuts{body.alpha_f, body.normal_f};
+  body.set_strain_fraction();
+  const solid::CutFaces cuts{body.alpha_f, body.normal_f,
+                             by_flux ? body.strain_fraction() : body.alpha};
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
                                      .u = by_flux ? flow.by_flux->u : flow.u,
                                      .L = by_flux ? flow.by_flux->L : L,

@@ -12,7 +12,7 @@ namespace fsi::vof {
 /// The fractions of one body that a separation moves; owned and halo, before and after.
 struct Fractions {
   CellField<Real>* alpha = nullptr;  ///< fractions at the end of the step
-  CellField<Real>* mid = nullptr;  ///< its mean over the step, which takes half of what is moved
+  CellField<Real>* mid = nullptr;    ///< its mean over the step, which takes half of what is moved
 };
 
 /// Moves what is too much of several bodies in a cell to where there is room. Every body is carried

@@ -41,7 +41,6 @@ TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
     ASSERT_EQ(std::sscanf(text.c_str() + at, "strained most at (%lf, %lf, %lf)", &x.x, &x.y, &x.z),
               3);
     EXPECT_LT(norm(x - centre), 0.2 + 1.0 / 16) << text;
-    EXPECT_NE(text.find("an edge or a corner"), std::string::npos) << text;
   }
 }
 

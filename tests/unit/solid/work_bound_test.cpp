@@ -43,7 +43,7 @@ struct HalfSolid {
     extension.mark(alpha, known);
   }
   Tensor excess(const Tensor& of, Index c) const {
-    const solid::CutFaces cuts{alpha_f, normal};
+    const solid::CutFaces cuts{alpha_f, normal, alpha};
     const solid::FlowSnapshot snapshot{
         .phi = phi, .u = u, .L = L, .stencil = stencil.cells, .weights = weights, .cuts = &cuts};
     return solid::excess_of_work(of, snapshot, alpha, extension, mesh, c);

@@ -58,7 +58,8 @@ struct Setup {
   Layers layers;
   KinematicsKind kind = KinematicsKind::log_conformation;
   bool triangles = false;
-  int shorter = 2;  ///< steps on the finer mesh
+  int shorter = 2;    ///< steps on the finer mesh
+  bool half = false;  ///< the upper half alone, on a wall at rest: u(0) = 0
 };
 
 const char* name(KinematicsKind kind) {
@@ -78,6 +79,10 @@ Mesh mesh_of(const Setup& setup, Index n) {
                     .length = {4.0 / n, 2, 1},
                     .simplex = setup.triangles,
                     .periodic = {"left", "right"}};
+  if (setup.half) {
+    box.n[1] = n, box.length.y = 1;
+    box.moved = [](const Vec3& x) { return x + Vec3{0, 1, 0}; };
+  }
   return test::read_box(box);
 }
 
@@ -128,10 +133,12 @@ Errors errors(const Setup& setup, Index n, int steps_a_period) {
   const FixedVelocity walls{[](const Vec3& x, Real t) {
     return Vec3{(x.y > 1 ? 1 : -1) * std::sin(w * t), 0, 0};
   }};
-  Solver solver(mesh, {.rho = 1, .mu_f = layers.mu_f, .mu_s = layers.mu_s, .G = layers.G},
-                {.conditions = {{"bottom", walls}, {"top", walls}}});
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = layers.mu_f, .mu_s = layers.mu_s, .G = layers.G},
+      {.conditions = {{"bottom", setup.half ? Condition{Wall{}} : walls}, {"top", walls}}});
   solver.start([&](const Vec3& x) { return Vec3{exact.u(x.y - 1, 0), 0, 0}; });
-  solver.put_solid(shapes::translate(shapes::box({200, 1, 200}), {0, 1, 0}), setup.kind);
+  const Real middle = setup.half ? 1.25 : 1, height = setup.half ? 0.5 : 1;
+  solver.put_solid(shapes::translate(shapes::box({200, height, 200}), {0, middle, 0}), setup.kind);
   deform(*solver.body(), exact);
   Real u = 0, B = 0, scale = 0;
   for (int step = 0; step < 2 * steps_a_period; ++step) {
@@ -151,11 +158,12 @@ std::array<Errors, 2> converge(const Setup& setup, Index n, Index m) {
   const Real finer = std::log(static_cast<Real>(m) / static_cast<Real>(n));
   const Layers& l = setup.layers;
   std::printf(
-      "slab G %g, mu %g in %g, %s, %s, %d and %d across: u %.2e %.2e of %.2e, order %.2f; B_xy "
+      "slab%s G %g, mu %g in %g, %s, %s, %d and %d across: u %.2e %.2e of %.2e, order %.2f; B_xy "
       "%.2e %.2e, order %.2f\n",
-      l.G, l.mu_s, l.mu_f, name(setup.kind), setup.triangles ? "triangles" : "quads", n, m, e[0].u,
-      e[1].u, std::abs(Exact(l).amplitude(0.5)), std::log(e[0].u / e[1].u) / finer, e[0].B_xy,
-      e[1].B_xy, std::log(e[0].B_xy / e[1].B_xy) / finer);
+      setup.half ? " on a wall," : "", l.G, l.mu_s, l.mu_f, name(setup.kind),
+      setup.triangles ? "triangles" : "quads", n, m, e[0].u, e[1].u,
+      std::abs(Exact(l).amplitude(0.5)), std::log(e[0].u / e[1].u) / finer, e[0].B_xy, e[1].B_xy,
+      std::log(e[0].B_xy / e[1].B_xy) / finer);
   return e;
 }
 
@@ -194,6 +202,18 @@ TEST(Slab, TrianglesInMidCell) {
   EXPECT_LE(fine.B_xy, 4e-4);
   EXPECT_GE(order(coarse.u, fine.u), 1.5);
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.7);
+}
+
+TEST(Slab, OnAWall) {
+  for (const bool triangles : {false, true}) {
+    const Index n = triangles ? 16 : 32;
+    const auto [coarse, fine] =
+        converge({.layers = viscous, .triangles = triangles, .half = true}, n, 2 * n);
+    EXPECT_LE(fine.u, 2.5e-4);
+    EXPECT_LE(fine.B_xy, 5e-4);
+    EXPECT_GE(order(coarse.u, fine.u), 1.7);
+    EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.7);
+  }
 }
 
 // The interface hardly moves here, 0.18 % of the walls; the layer at it is 0.05 thick.
