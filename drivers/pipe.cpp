@@ -11,20 +11,26 @@ RunStatus body() {
   const Real mean =
       options.real("flow_mean_velocity", 0.5,
                    {.help = "mean velocity along x, held exactly", .unit = "velocity"});
+  const Real frame = options.real(
+      "flow_frame_velocity", 0,
+      {.help =
+           "velocity along x of the frame that mesh and results stand in; pipe straight along x",
+       .unit = "velocity"});
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(setup.mesh);
-  setup.flow.conditions = {{"wall", Wall{}}};
+  setup.flow.conditions = {{"wall", Wall{{-frame, 0, 0}}}};
   for (const Patch& patch : mesh.patches)
     if (patch.name == "symmetry") setup.flow.conditions["symmetry"] = Slip{};
-  setup.flow.mean_velocity = mean;
+  setup.flow.frame = {frame, 0, 0};
+  setup.flow.mean_velocity = mean - frame;
   describe(setup, mesh, 1, 2 * mean);
 
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);
-  solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
+  solver.start([=](const Vec3&) { return Vec3{mean - frame, 0, 0}; });
   put_solids(solver, setup);
 
   // 4 what to write

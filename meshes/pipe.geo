@@ -1,15 +1,33 @@
 // A pipe of diameter 1 along x, centre line y = z = 0.5: patches inlet (x = 0), outlet, wall.
 // n cells per diameter (hexes: a multiple of 4), length; half 1: only z > 0.5, patch symmetry on the
 // plane z = 0.5. Cells: hexes of an O-grid; prism 1: triangles swept along x; simplex 1: tets.
+// 0 < fine < length: layers of 1 / n from x = 0 to `fine` alone, and longer by a part `rise` > 0 from
+// layer to layer up to the middle of the rest.
 DefineConstant[
   n = {16, Name "n"},
   length = {5, Name "length"},
+  fine = {0, Name "fine"},
+  rise = {0.15, Name "rise"},
   half = {0, Name "half"},
   prism = {0, Name "prism"},
   simplex = {0, Name "simplex"}
 ];
 quadrants = half ? 2 : 4;
-layers = Ceil(n * length - 1e-9);
+graded = (fine > 0 && fine < length && rise > 0) ? 1 : 0;
+fine_length = graded ? fine : length;
+counts[] = {Ceil(n * fine_length - 1e-9)};
+tops[] = {fine_length / length};
+If (graded)
+  rest = (length - fine) / 2;
+  growing = Ceil(Log(1 + rest * n * rise / (1 + rise)) / Log(1 + rise));
+  first = rest * rise / ((1 + rise) ^ (growing + 1) - (1 + rise));
+  at = fine;
+  For k In {1 : 2 * growing}
+    at += first * (1 + rise) ^ (k <= growing ? k : 2 * growing + 1 - k);
+    counts[] += {1};
+    tops[] += {k < 2 * growing ? at / length : 1};
+  EndFor
+EndIf
 m = Ceil(n / 4 - 1e-9);
 R = 0.5;
 
@@ -43,9 +61,9 @@ If (prism || simplex)
   Plane Surface(disk) = {loop};
   Mesh.Algorithm = 6;
   If (simplex)
-    swept[] = Extrude {length, 0, 0} { Surface{disk}; Layers{layers}; };
+    swept[] = Extrude {length, 0, 0} { Surface{disk}; Layers{counts[], tops[]}; };
   Else
-    swept[] = Extrude {length, 0, 0} { Surface{disk}; Layers{layers}; Recombine; };
+    swept[] = Extrude {length, 0, 0} { Surface{disk}; Layers{counts[], tops[]}; Recombine; };
   EndIf
   inlet[] = {disk};
   outlet[] = {swept[0]};
@@ -105,7 +123,7 @@ Else
   Transfinite Curve "*" = m + 1;
   Transfinite Surface {section[]};
   Recombine Surface {section[]};
-  swept[] = Extrude {length, 0, 0} { Surface{section[]}; Layers{layers}; Recombine; };
+  swept[] = Extrude {length, 0, 0} { Surface{section[]}; Layers{counts[], tops[]}; Recombine; };
   inlet[] = section[];
   outlet[] = {};
   fluid[] = {};

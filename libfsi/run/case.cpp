@@ -305,6 +305,9 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   else
     std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
                 length, velocity);
+  if (const Vec3& v = setup.flow.frame; norm(v) > 0)
+    std::printf("the mesh moves at (%g, %g, %g): all that is written stands in its frame\n", v.x,
+                v.y, v.z);
   for (std::size_t i = 0; i < setup.solids.size(); ++i) {
     const SolidSetup& s = setup.solids[i];
     const std::string name =

@@ -13,6 +13,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
 #include "libfsi/io/manifest.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
 namespace {
@@ -123,6 +124,8 @@ io::Snapshot Output::snapshot() {
   for (const Body& body : solver_.bodies())
     identity += (body.name.empty() ? " " : " " + body.name + ".") +
                 "kinematics=" + name_of(body.kinematics) + (body.memory ? "+memory" : "");
+  if (const Vec3& v = case_.flow.frame; norm(v) > 0)
+    identity += print(" frame=%g,%g,%g", v.x, v.y, v.z);
   io::Snapshot all(identity);
   all.add("simulated", &simulated_);
   solver_.list(all);

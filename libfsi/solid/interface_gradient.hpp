@@ -21,7 +21,8 @@ struct Cuts {
   const CellField<Real>& fluid_side;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
 };
 
-/// Sets L in the solid's cells (alpha >= 1/2) and those that share a vertex with one.
+/// Sets L in the listed cells: those of the solid (alpha >= 1/2) that know their strain, and all
+/// that share a vertex with one.
 ///
 /// A triangle is not symmetric about its centre: the library's gradient is off by a part of
 /// h grad grad u that changes sign from cell to cell, and the strain keeps it. At the surface,

@@ -40,7 +40,7 @@ Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
   if (body.advected.remaining > fraction_excess_max)
     return {"the fraction of " + which + " left [0, 1]", Term::fraction, &body};
   if (!body.semi_implicit()) return {};
-  if (dt > elastic_max * body.elastic_number() * elastic_time(body))
+  if (dt > elastic_max * elastic_dt(body))
     return {which + " became too stiff for the step", Term::elasticity, &body};
   if (dt > strain_dt(solid::strain_max) || global_max(body.strain.of_part) > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};

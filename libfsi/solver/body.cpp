@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi {
 namespace {
@@ -21,6 +22,36 @@ std::string name_of(const Kinematics& kinematics) {
   if (std::holds_alternative<solid::LeftCauchyGreen>(kinematics)) return "left_cauchy_green";
   if (std::holds_alternative<solid::ReferenceMap>(kinematics)) return "reference_map";
   return "log_conformation";
+}
+
+OffWalls::OffWalls(const Mesh& mesh, const std::vector<Patch>& walls)
+    : at_wall(mesh), known(mesh), alpha(mesh) {
+  for (const Patch& patch : walls)
+    for (Index f = patch.begin; f < patch.end; ++f) at_wall[mesh.owner[f]] = 1;
+  mesh.halo.update(at_wall);
+  const auto is_at = [&](Index n) { return at_wall[n] > 0; };
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (is_at(c))
+      at.push_back(c);
+    else if (std::ranges::any_of(mesh.cell_neighbours[c], is_at))
+      beside.push_back(c);
+}
+
+void OffWalls::set(const CellField<Real>& fraction, const Mesh& mesh) {
+  const auto of_solid = [&](Index c) { return fraction[c] >= solid::alpha_known; };
+  alpha.assign(fraction);
+  // A cell without another beyond its faces does not know its strain (Extension).
+  for (const Index c : beside)
+    known[c] = of_solid(c) && std::ranges::any_of(mesh.cell_faces[c], [&](Index f) {
+                 const Index n = beyond(mesh, f, c);
+                 return n >= 0 && at_wall[n] == 0 && of_solid(n);
+               });
+  mesh.halo.update(known);
+  for (const Index c : at)
+    if (of_solid(c) &&
+        std::ranges::any_of(mesh.cell_neighbours[c], [&](Index n) { return known[n] > 0; }))
+      alpha[c] = 0;
+  mesh.halo.update(alpha);
 }
 
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
@@ -59,12 +90,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   hold_parts(physics);
-  if (extended() && solid::has_simplices(mesh)) {
-    off_walls.emplace(mesh);
-    for (const Patch& patch : walls)
-      for (Index f = patch.begin; f < patch.end; ++f) off_walls->at_wall[mesh.owner[f]] = 1;
-    mesh.halo.update(off_walls->at_wall);
-  }
+  if (extended() && mesh.dim == 3 && solid::has_simplices(mesh)) off_walls.emplace(mesh, walls);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Folded::refit);
@@ -151,19 +177,6 @@ void Body::set_touched(std::span<const Index> cells, std::span<const char> open)
     }
 }
 
-void Body::set_strain_fraction() {
-  if (!off_walls) return;
-  auto& [at_wall, known] = *off_walls;
-  known.assign(alpha);
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    if (at_wall[c] > 0 && alpha[c] >= solid::alpha_known &&
-        std::ranges::any_of(mesh.cell_neighbours[c], [&](Index n) {
-          return at_wall[n] == 0 && alpha[n] >= solid::alpha_known;
-        }))
-      known[c] = 0;
-  mesh.halo.update(known);
-}
-
 bool Body::count_out() {
   constexpr Real speck = 0.01, rest = 1e-3;
   Sum out;
@@ -212,7 +225,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  set_strain_fraction();
+  if (off_walls) off_walls->set(alpha, mesh);
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   if (remembers()) memory->resume(alpha, grad);
   update_B();

@@ -47,21 +47,26 @@ struct TwoViscosities {
 };
 
 /// The fraction without the cells at a wall, which do not know their strain: between the wall and
-/// the solid is a film thinner than they are. On triangles and tetrahedra the velocity of such a
-/// cell, held by the wall on one side alone, strains it the wrong way: what is pressed on the edge
-/// of a flow divider was crushed there.
+/// the solid is a film thinner than they are. On tetrahedra the velocity of such a cell, held by
+/// the wall on one side alone, strains it the wrong way, and the edge of a flow divider crushes
+/// what is pressed on it.
 struct OffWalls {
-  /// mesh must outlive it.
-  explicit OffWalls(const Mesh& mesh) : at_wall(mesh), alpha(mesh) {}
-  CellField<Real> at_wall;  ///< 1 in cells with a face on a wall; owned and halo
-  CellField<Real> alpha;    ///< 0 in those of them that have solid beside them off the wall
+  /// Collective. walls: their patches. mesh must outlive it.
+  OffWalls(const Mesh& mesh, const std::vector<Patch>& walls);
+  /// Collective. Sets `alpha` from that of the solid.
+  void set(const CellField<Real>& fraction, const Mesh& mesh);
+  CellField<Real> at_wall;        ///< 1 in cells with a face on a wall; owned and halo
+  CellField<Real> known;          ///< 1 in cells off the walls, beside them, that know their strain
+  CellField<Real> alpha;          ///< 0 in cells at a wall with such a cell beside them
+  std::vector<Index> at, beside;  ///< owned: at a wall, and off it with a vertex of such a cell
 };
 
 /// The solid's unknowns and the parts of the scheme that work on them.
 struct Body {
   /// Collective. Fills the undeformed shape; mirrors: planes of symmetry, which may cut it; walls:
-  /// what gives the velocity. A viscosity that is not the fluid's gets a traction of its own at the
-  /// surface, but for ratios past SurfaceTraction::ratio_max and for the paper's kinematics.
+  /// what has a velocity of its own, which may also be an inlet. A viscosity that is not the
+  /// fluid's gets a traction of its own at the surface, but for ratios past
+  /// SurfaceTraction::ratio_max and for the paper's kinematics.
   Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
        const std::vector<Patch>& mirrors = {}, const std::vector<Patch>& walls = {});
 
@@ -115,12 +120,11 @@ struct Body {
   }
   /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
   /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches
-  /// in the second half has the fluid's, and its L an error of (Co / 2) times the jump.
+  /// in the second half has the fluid's, and its L an error of (Co / 2) times the jump. On
+  /// tetrahedra, cells at a wall do not.
   const CellField<Real>& strain_fraction() const {
     return off_walls ? off_walls->alpha : strain_by_flux() ? alpha_mid : alpha;
   }
-  /// Collective. Renews `off_walls` from alpha.
-  void set_strain_fraction();
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
@@ -176,7 +180,7 @@ struct Body {
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
   std::optional<TwoViscosities> two_viscosities;           ///< where they differ
   std::optional<solid::BodyForce> body_force;              ///< where there is one
-  std::optional<OffWalls> off_walls;                       ///< on triangles and tetrahedra
+  std::optional<OffWalls> off_walls;                       ///< on tetrahedra
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;

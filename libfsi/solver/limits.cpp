@@ -40,18 +40,17 @@ Real Solver::boundary_dt(Real courant) const {
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 
-Real Solver::elastic_time(const Body& body) const {
-  return global_min(solid::elastic_time(body.lambda, body.G, body.rho, mesh_, body.band.core()));
+Real Solver::elastic_dt(const Body& body) const {
+  // With a density of its own a solid wobbles at the limit more than one without.
+  constexpr Real two_densities = 0.75;
+  const Real part = body.rho != physics_.rho ? two_densities : 1;
+  return part * body.elastic_number() *
+         global_min(solid::elastic_time(body.lambda, body.G, body.rho, mesh_, body.band.core()));
 }
 
 Real Solver::elastic_dt() const {
-  // With a density of its own a solid wobbles at the limit more than one without.
-  constexpr Real two_densities = 0.75;
   Real least = std::numeric_limits<Real>::max();
-  for (const Body& body : bodies_) {
-    const Real part = body.rho != physics_.rho ? two_densities : 1;
-    least = std::min(least, part * body.elastic_number() * elastic_time(body));
-  }
+  for (const Body& body : bodies_) least = std::min(least, elastic_dt(body));
   return least;
 }
 

@@ -200,9 +200,8 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
-  body.set_strain_fraction();
-  const solid::CutFaces cuts{body.alpha_f, body.normal_f,
-                             by_flux ? body.strain_fraction() : body.alpha};
+  if (body.off_walls) body.off_walls->set(body.alpha, body.mesh);
+  const solid::CutFaces cuts{body.alpha_f, body.normal_f, by_flux ? body.alpha_mid : body.alpha};
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
                                      .u = by_flux ? flow.by_flux->u : flow.u,
                                      .L = by_flux ? flow.by_flux->L : L,

@@ -32,7 +32,10 @@ struct FlowSetup {
   Conditions conditions{};              ///< one a patch
   Vec3 axis{1, 0, 0};                   ///< of the mean velocity
   std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
-  int non_orthogonal_correctors = 1;    ///< solves for the pressure beyond the first
+  /// Velocity of the frame that conditions, places and results stand in. The equations are the same
+  /// in all; a run tells it, and goes on from checkpoints of the same frame alone.
+  Vec3 frame{};
+  int non_orthogonal_correctors = 1;  ///< solves for the pressure beyond the first
   flow::Convection convection = flow::Convection::linear;  ///< face values of the velocity
   /// Force per volume on fluid and solid at x and t; none where empty.
   std::function<Vec3(const Vec3& x, Real t)> body_force{};
@@ -244,7 +247,7 @@ class Solver {
   }
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
-  Real elastic_time(const Body& body) const;
+  Real elastic_dt(const Body& body) const;
   void hold_backup();
   /// Numbers in profile_ of what a step calls.
   struct Calls {

@@ -109,5 +109,24 @@ TEST(Walls, AreTouchedByTheSolidAtThem) {
   EXPECT_GT(touched, 0);
 }
 
+// A layer on the floor of tetrahedra: two cells thick, those at the floor leave their strain to the
+// ones above; thinner, they are all that knows it and keep it.
+TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
+  constexpr Index n = 6;
+  const Mesh mesh = test::read_box(
+      {.n = {n, n, n}, .simplex = true, .periodic = {"left", "right", "back", "front"}});
+  CellField<Real> alpha(mesh);
+  OffWalls off(mesh, {mesh.patch("bottom")});
+  for (const bool thick : {true, false}) {
+    const auto solid = [&](Index c) { return mesh.C[c].y < (thick ? 2.0 : 0.5) / n; };
+    for (Index c = 0; c < mesh.n_cells; ++c) alpha[c] = solid(c) ? 1 : 0;
+    off.set(alpha, mesh);
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const bool left = thick && off.at_wall[c] > 0;
+      EXPECT_EQ(off.alpha[c], solid(c) && !left ? 1 : 0) << mesh.C[c].y * n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi

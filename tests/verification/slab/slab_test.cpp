@@ -60,6 +60,7 @@ struct Setup {
   bool triangles = false;
   int shorter = 2;    ///< steps on the finer mesh
   bool half = false;  ///< the upper half alone, on a wall at rest: u(0) = 0
+  bool tets = false;  ///< of a box four cells deep
 };
 
 const char* name(KinematicsKind kind) {
@@ -82,6 +83,10 @@ Mesh mesh_of(const Setup& setup, Index n) {
   if (setup.half) {
     box.n[1] = n, box.length.y = 1;
     box.moved = [](const Vec3& x) { return x + Vec3{0, 1, 0}; };
+  }
+  if (setup.tets) {
+    box.n[2] = 4, box.length.z = box.length.x, box.simplex = true;
+    box.periodic = {"left", "right", "back", "front"};
   }
   return test::read_box(box);
 }
@@ -153,7 +158,7 @@ Errors errors(const Setup& setup, Index n, int steps_a_period) {
 
 /// Errors with n and m cells across, printed with their order.
 std::array<Errors, 2> converge(const Setup& setup, Index n, Index m) {
-  const int steps = setup.triangles ? 2000 : 1000;
+  const int steps = setup.triangles ? 2000 : setup.tets ? 300 : 1000;
   const std::array<Errors, 2> e{errors(setup, n, steps), errors(setup, m, setup.shorter * steps)};
   const Real finer = std::log(static_cast<Real>(m) / static_cast<Real>(n));
   const Layers& l = setup.layers;
@@ -161,9 +166,11 @@ std::array<Errors, 2> converge(const Setup& setup, Index n, Index m) {
       "slab%s G %g, mu %g in %g, %s, %s, %d and %d across: u %.2e %.2e of %.2e, order %.2f; B_xy "
       "%.2e %.2e, order %.2f\n",
       setup.half ? " on a wall," : "", l.G, l.mu_s, l.mu_f, name(setup.kind),
-      setup.triangles ? "triangles" : "quads", n, m, e[0].u, e[1].u,
-      std::abs(Exact(l).amplitude(0.5)), std::log(e[0].u / e[1].u) / finer, e[0].B_xy, e[1].B_xy,
-      std::log(e[0].B_xy / e[1].B_xy) / finer);
+      setup.tets        ? "tets"
+      : setup.triangles ? "triangles"
+                        : "quads",
+      n, m, e[0].u, e[1].u, std::abs(Exact(l).amplitude(0.5)), std::log(e[0].u / e[1].u) / finer,
+      e[0].B_xy, e[1].B_xy, std::log(e[0].B_xy / e[1].B_xy) / finer);
   return e;
 }
 
@@ -202,6 +209,14 @@ TEST(Slab, TrianglesInMidCell) {
   EXPECT_LE(fine.B_xy, 4e-4);
   EXPECT_GE(order(coarse.u, fine.u), 1.5);
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.7);
+}
+
+TEST(Slab, OnAWallOfTetrahedra) {
+  const auto [coarse, fine] = converge({.layers = viscous, .half = true, .tets = true}, 8, 16);
+  EXPECT_LE(fine.u, 1e-3);
+  EXPECT_LE(fine.B_xy, 3.2e-3);
+  EXPECT_GE(order(coarse.u, fine.u), 1.3);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.15);
 }
 
 TEST(Slab, OnAWall) {
