@@ -12,12 +12,15 @@ RING = {"solid_shape": "torus", "solid_major_radius": 0.3, "solid_minor_radius":
         "solid_center": "0.75,0.5,0.5", "solid_shear_modulus": 10}
 
 
-def run(driver, mesh, folder, speed, solid):
+def command(driver, mesh, folder, speed, solid, end=END):
     options = {"mesh_periodic": "inlet,outlet", "fluid_viscosity": 0.01, "flow_mean_velocity": 0.5,
-               "flow_frame_velocity": speed, "time_step": 0.01, "time_end": END, "sample_interval": 0.1,
-               "output_dir": folder, **solid}
-    command = [driver, "-mesh", mesh] + [str(word) for k, v in options.items() for word in ("-" + k, v)]
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+               "flow_frame_velocity": speed, "time_step": 0.01, "time_end": end, "sample_interval": 0.1,
+               "checkpoint_interval": END, "output_dir": folder, **solid}
+    return [driver, "-mesh", mesh] + [str(word) for k, v in options.items() for word in ("-" + k, v)]
+
+
+def run(driver, mesh, folder, speed, solid):
+    subprocess.run(command(driver, mesh, folder, speed, solid), check=True, stdout=subprocess.DEVNULL)
     tables = {}
     for name in ("flow", "solid") if solid else ("flow",):
         with open(f"{folder}/{name}.csv", encoding="utf-8") as file:
@@ -46,10 +49,20 @@ def ring(driver, mesh, folder):
     assert abs(gradient) < 0.05 and made < 0.05
 
 
+def restart(driver, mesh, folder):
+    """A run goes on in the frame of its checkpoint alone: in another its velocities would be wrong."""
+    for speed, code in ((0, 2), (SPEED, 0)):
+        words = command(driver, mesh, f"{folder}/ring{SPEED}", speed, RING, END + 0.05)
+        done = subprocess.run(words + ["-restart"], capture_output=True, text=True, check=False)
+        print(f"-restart at {speed}: {done.returncode} {done.stderr.strip()}")
+        assert done.returncode == code and (code == 0 or "frame=0.7,0,0" in done.stderr)
+
+
 def main():
     driver, swept, graded, folder = sys.argv[1:]
     empty(driver, swept, folder)
     ring(driver, graded, folder)
+    restart(driver, graded, folder)
 
 
 if __name__ == "__main__":
