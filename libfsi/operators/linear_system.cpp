@@ -17,17 +17,21 @@ struct LinearSystem::Handles {
   const Mesh& mesh;
   std::string name;
   bool pinned = false;  ///< direct and singular: one diagonal entry is doubled
-  bool null_space = false;
-  bool cycle = false;  ///< PETSc's own on BoomerAMG's levels
-  Real relative_tolerance = 0;
+  bool cycle = false;   ///< PETSc's own on BoomerAMG's levels
   Mat matrix = nullptr;
   Mat renewed = nullptr;  ///< where its values are not those the preconditioner was made of
   KSP solver = nullptr;
   Vec x = nullptr, b = nullptr;
+  MatNullSpace constant = nullptr;  ///< of a system that is singular and not pinned
   std::vector<PetscScalar> values;
   std::vector<Index> face;  // of every off-diagonal entry
 
   explicit Handles(const Mesh& m) : mesh(m) {}
+  /// Attaches the null space. PETSc then takes the constant out after each product and sweep, one
+  /// reduction each; our own cycle has its coarsest level pinned and needs that at the end only.
+  void attach(Mat to) const {
+    if (constant != nullptr && !cycle) FSI_PETSC(MatSetNullSpace(to, constant));
+  }
   /// Collective. Puts the values in.
   void set(Mat to, const FaceMatrix& from) {
     const std::size_t n = from.diagonal.size();
@@ -43,11 +47,12 @@ struct LinearSystem::Handles {
   Handles& operator=(const Handles&) = delete;
   ~Handles() {
     // Nothing useful can be done with a code here, and a destructor must not throw.
-    static_cast<void>(KSPDestroy(&solver));   // layers: destructor
-    static_cast<void>(MatDestroy(&matrix));   // layers: destructor
-    static_cast<void>(MatDestroy(&renewed));  // layers: destructor
-    static_cast<void>(VecDestroy(&x));        // layers: destructor
-    static_cast<void>(VecDestroy(&b));        // layers: destructor
+    static_cast<void>(KSPDestroy(&solver));             // layers: destructor
+    static_cast<void>(MatDestroy(&matrix));             // layers: destructor
+    static_cast<void>(MatDestroy(&renewed));            // layers: destructor
+    static_cast<void>(VecDestroy(&x));                  // layers: destructor
+    static_cast<void>(VecDestroy(&b));                  // layers: destructor
+    static_cast<void>(MatNullSpaceDestroy(&constant));  // layers: destructor
   }
 };
 
@@ -78,16 +83,10 @@ std::vector<PetscInt> global_rows(const Mesh& mesh) {
   return {number.begin(), number.end()};
 }
 
-void set_properties(Mat matrix, bool null_space) {
+void set_properties(Mat matrix) {
   FSI_PETSC(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
   FSI_PETSC(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   FSI_PETSC(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-  if (null_space) {
-    MatNullSpace constant = nullptr;
-    FSI_PETSC(MatNullSpaceCreate(comm(), PETSC_TRUE, 0, nullptr, &constant));
-    FSI_PETSC(MatSetNullSpace(matrix, constant));
-    FSI_PETSC(MatNullSpaceDestroy(&constant));
-  }
 }
 
 /// A matrix on the cell graph, without values; face: of every off-diagonal entry.
@@ -112,6 +111,7 @@ Mat new_matrix(const Mesh& mesh, std::vector<Index>& face) {
 
 void set_defaults(const std::string& prefix, Method method, KSP solver) {
   FSI_PETSC(KSPSetType(solver, KSPCG));
+  FSI_PETSC(KSPCGUseSingleReduction(solver, ranks() > 1 ? PETSC_TRUE : PETSC_FALSE));
   FSI_PETSC(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
   FSI_PETSC(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   PC pc = nullptr;
@@ -144,11 +144,11 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   Handles& h = *handles_;
   h.name = name;
   h.pinned = singular && method == Method::direct;
-  h.null_space = singular && !h.pinned;
-  h.relative_tolerance = relative_tolerance;
+  if (singular && !h.pinned)
+    FSI_PETSC(MatNullSpaceCreate(comm(), PETSC_TRUE, 0, nullptr, &h.constant));
 
   h.matrix = new_matrix(mesh, h.face);
-  set_properties(h.matrix, h.null_space);
+  set_properties(h.matrix);
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.x));
   FSI_PETSC(VecCreateMPIWithArray(comm(), 1, mesh.n_owned, PETSC_DETERMINE, nullptr, &h.b));
   FSI_PETSC(KSPCreate(comm(), &h.solver));
@@ -172,17 +172,19 @@ void LinearSystem::assemble(const FaceMatrix& matrix) {
   FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
   FSI_PETSC(MatDestroy(&h.matrix));
   h.matrix = lean;
-  set_properties(h.matrix, h.null_space);
+  set_properties(h.matrix);
   FSI_PETSC(KSPSetOperators(h.solver, h.matrix, h.matrix));
   h.values = {}, h.face = {};
-  if (h.cycle) cycle_on_levels(h.solver, h.null_space);
+  h.cycle = h.cycle && cycle_on_levels(h.solver, h.constant != nullptr);
+  h.attach(h.matrix);
 }
 
 void LinearSystem::renew(const FaceMatrix& matrix) {
   Handles& h = *handles_;
   if (h.renewed == nullptr) {
     h.renewed = new_matrix(h.mesh, h.face);
-    set_properties(h.renewed, h.null_space);
+    set_properties(h.renewed);
+    h.attach(h.renewed);
   }
   h.set(h.renewed, matrix);
   FSI_PETSC(KSPSetReusePreconditioner(h.solver, PETSC_TRUE));
@@ -194,11 +196,7 @@ SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real abso
   Handles& h = *handles_;
   FSI_PETSC(VecPlaceArray(h.x, x.data()));
   FSI_PETSC(VecPlaceArray(h.b, b.data()));
-  if (h.null_space) {
-    MatNullSpace constant = nullptr;
-    FSI_PETSC(MatGetNullSpace(h.matrix, &constant));
-    FSI_PETSC(MatNullSpaceRemove(constant, h.b));
-  }
+  if (h.constant != nullptr) FSI_PETSC(MatNullSpaceRemove(h.constant, h.b));
   PetscReal rtol = 0, given = 0, divergence = 0;
   PetscInt its = 0, most = 0;
   FSI_PETSC(KSPGetTolerances(h.solver, &rtol, &given, &divergence, &most));
@@ -212,6 +210,7 @@ SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real abso
   FSI_PETSC(KSPGetConvergedReason(h.solver, &reason));
   FSI_PETSC(KSPGetIterationNumber(h.solver, &its));
   FSI_PETSC(KSPGetResidualNorm(h.solver, &result.residual));
+  if (h.constant != nullptr) FSI_PETSC(MatNullSpaceRemove(h.constant, h.x));
   FSI_PETSC(VecResetArray(h.x));
   FSI_PETSC(VecResetArray(h.b));
   result.iterations = static_cast<int>(its);

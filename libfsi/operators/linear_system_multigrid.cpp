@@ -91,7 +91,7 @@ void factor_whole(PC pc) {
   FSI_PETSC(PCFactorSetMatOrderingType(pc, MATORDERINGND));
 }
 
-void cycle_on_levels(KSP solver, bool singular) {
+bool cycle_on_levels(KSP solver, bool singular) {
   PC amg = nullptr, cycle = nullptr;
   Mat finest = nullptr;
   const char* prefix = nullptr;
@@ -99,7 +99,7 @@ void cycle_on_levels(KSP solver, bool singular) {
   FSI_PETSC(PCSetUp(amg));
   FSI_PETSC(PCGetOperators(amg, &finest, nullptr));
   const Levels levels(amg);
-  if (levels.n < 2) return;
+  if (levels.n < 2) return false;
   FSI_PETSC(KSPGetOptionsPrefix(solver, &prefix));
   FSI_PETSC(PCCreate(comm(), &cycle));
   FSI_PETSC(PCSetOptionsPrefix(cycle, prefix));
@@ -109,6 +109,7 @@ void cycle_on_levels(KSP solver, bool singular) {
   FSI_PETSC(KSPSetPC(solver, cycle));
   FSI_PETSC(PCDestroy(&cycle));
   FSI_PETSC(KSPSetFromOptions(solver));
+  return true;
 }
 
 }  // namespace fsi

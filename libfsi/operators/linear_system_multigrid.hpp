@@ -9,8 +9,8 @@ namespace fsi {
 /// preconditioner, on the levels that BoomerAMG makes of the solver's matrix: a sweep of
 /// Gauss-Seidel forward on the way down, one backward on the way up, in every rank's own part, and
 /// a factorisation on the coarsest. singular: the constant is the null space of the matrix.
-/// Leaves BoomerAMG alone where it makes one level only.
-void cycle_on_levels(KSP solver, bool singular);
+/// Returns whether there is such a cycle; BoomerAMG stays where it makes one level only.
+bool cycle_on_levels(KSP solver, bool singular);
 
 /// Makes the preconditioner a factorisation; where ranks are many every one factors the whole,
 /// which is small: a parallel factorisation (MUMPS) adds up in an order that differs from run to

@@ -191,6 +191,7 @@ VectorSystem::VectorSystem(const Mesh& mesh, const std::string& name, Real relat
   FSI_PETSC(KSPSetOptionsPrefix(h.solver, (name + "_").c_str()));
   FSI_PETSC(KSPSetOperators(h.solver, h.shell, h.shell));
   FSI_PETSC(KSPSetType(h.solver, KSPCG));
+  FSI_PETSC(KSPCGUseSingleReduction(h.solver, ranks() > 1 ? PETSC_TRUE : PETSC_FALSE));
   FSI_PETSC(KSPSetNormType(h.solver, KSP_NORM_NATURAL));
   FSI_PETSC(KSPSetInitialGuessNonzero(h.solver, PETSC_TRUE));
   PC pc = nullptr;
