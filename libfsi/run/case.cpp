@@ -159,6 +159,8 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   output.end_when_empty =
       options.flag("end_when_empty", false,
                    "end the run once all solids have left the mesh: no cell is half full");
+  output.describe_step =
+      options.flag("describe_step", false, "print what each call of a step does in this scene");
   output.wall_seconds_max = options.real(
       "max_wall_time", 0,
       {.help = "wall time after which the run ends in order; 0: no limit", .unit = "s", .min = 0});
@@ -231,9 +233,9 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
 }
 
 std::string simulated(const Options& options) {
-  constexpr std::array not_simulated{"mesh",    "petscpartitioner", "time_",
-                                     "output_", "sample_",          "check",
-                                     "restart", "max_wall_time",    "end_when_empty"};
+  constexpr std::array not_simulated{
+      "mesh",  "petscpartitioner", "time_",         "output_",        "sample_",
+      "check", "restart",          "max_wall_time", "end_when_empty", "describe_step"};
   std::string text;
   for (const auto& [name, value] : options.values()) {
     const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };

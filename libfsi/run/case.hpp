@@ -26,6 +26,7 @@ struct OutputSetup {
   Real field_interval = 0, sample_interval = 0, checkpoint_interval = 0;
   bool restart = false;         ///< go on from the checkpoint in the directory
   bool end_when_empty = false;  ///< once the solid has left the mesh
+  bool describe_step = false;   ///< print what each call of a step does
   Real wall_seconds_max = 0;    ///< 0: no limit
 };
 

@@ -58,7 +58,10 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     std::snprintf(text.data(), text.size(), " %s %.3g", limit.name.c_str(), limit.dt);
     line += limit.dt < 1e300 ? text.data() : " " + limit.name + " none";
   }
-  if (rank() == 0) std::printf("%s\n", line.c_str());
+  if (rank() != 0) return;
+  std::printf("%s\n", line.c_str());
+  if (!setup.output.describe_step) return;
+  for (const std::string& call : solver.describe_step()) std::printf("%s\n", call.c_str());
 }
 
 Output::~Output() {

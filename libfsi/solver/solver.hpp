@@ -97,6 +97,10 @@ class Solver {
   /// and takes the solids back: the next step is the same to the last bit.
   void at_one_time(const std::function<void()>& use);
 
+  /// What each call of `step` does in this scene, a line a call; "nothing" where the scene does not
+  /// need it.
+  std::vector<std::string> describe_step() const;
+
   /// Adds all that the next step depends on to a checkpoint's list. After the solid is put in.
   void list(io::Snapshot& snapshot);
   /// Collective. Renews what follows from the listed state, once that was read.

@@ -1,0 +1,104 @@
+// What a step of this scene does, call by call: what was chosen when mesh, conditions and solids
+// were given (doc/theory/step.md).
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+/// What the calls that work on a solid do with this one, by their numbers; "": nothing.
+struct OfBody {
+  std::string hold, advance, jump, memory, elastic, force, implicit;
+};
+
+std::string elastic(const Body& body) {
+  if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
+    return "B carried and strained by grad u, spread around the solid by alpha";
+  std::string what = "the map carried";
+  if (!std::holds_alternative<solid::ReferenceMap>(body.kinematics)) {
+    what = "log B carried and strained by ";
+    what += body.interface_gradient ? "a fit of one side of the surface" : "velocities and fluxes";
+    if (body.remembers()) what += ", drawn to the map";
+    if (!body.two_viscosities) what += "; strain of outermost cells bounded by the force's work";
+  }
+  return what + (body.off_walls ? "; cells at walls extended from inside" : "");
+}
+
+std::string force(const Body& body) {
+  std::string what = body.extended() ? "div tau by the part of solid between cell centres"
+                                     : "div tau by alpha averaged linearly";
+  if (body.two_viscosities) what += "; traction between two viscosities";
+  if (body.body_force) what += "; weight and body force of the solid";
+  return what;
+}
+
+OfBody calls_of(const Body& body) {
+  OfBody calls;
+  if (body.map() != nullptr && body.held) calls.hold = "alpha towards the shape that the map tells";
+  calls.advance = body.time_offset() < 1 ? "to half a step after t" : "to the end of the step";
+  if (body.advects_pressure_jump()) calls.jump = "carried with the surface";
+  if (body.remembers()) calls.memory = "the map carried beside log B";
+  calls.elastic = elastic(body);
+  calls.force = force(body);
+  if (body.semi_implicit())
+    calls.implicit = body.interface_gradient ? "kappa = 0.4 dt G lambda, and what damps"
+                                             : "kappa = 0.4 dt G lambda";
+  return calls;
+}
+
+/// The line of a call; what is alike for all solids is said once.
+std::string of_bodies(const std::deque<Body>& bodies, std::string OfBody::*call) {
+  std::string line;
+  for (const Body& body : bodies) {
+    const std::string what = calls_of(body).*call;
+    if (what.empty()) continue;
+    if (!line.empty()) line += " | ";
+    line += (bodies.size() > 1 ? body.name + ": " : "") + what;
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> Solver::describe_step() const {
+  const auto solids = [&](std::string OfBody::*call) { return of_bodies(bodies_, call); };
+  const auto where = [](bool holds, const char* what) { return std::string(holds ? what : ""); };
+  const bool loaded = std::ranges::any_of(conditions_, [](const Condition& one) {
+    return fixes_pressure(one) || prescribes_flow(one);
+  });
+  const std::array<std::pair<const char*, std::string>, 18> calls{{
+      {"hold_shape", solids(&OfBody::hold)},
+      {"advance_interface", solids(&OfBody::advance)},
+      {"separate_bodies", where(separation_.has_value(), "sum of the fractions brought to 1")},
+      {"advect_pressure_jump", solids(&OfBody::jump)},
+      {"set_pressure_gradient", loaded ? "grad p with the pressure of the openings" : "grad p"},
+      {"set_velocity_gradient", needs_L() ? "grad u in all cells" : "u at the boundary"},
+      {"transport_memory", solids(&OfBody::memory)},
+      {"transport_elastic", solids(&OfBody::elastic)},
+      {"mix_viscosity", where(modes_.mu_varies, "mu of fluid and solids by alpha")},
+      {"mix_density", where(heavy_.has_value(), "rho of fluid and solids, new pressure matrix")},
+      {"add_elastic_force", solids(&OfBody::force)},
+      {"add_semi_implicit", solids(&OfBody::implicit)},
+      {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
+      {"balance_weight", where(heavy_.has_value(), "the force of rest out of the flux")},
+      {"predict_momentum", momentum_.reads_L() ? "u*, convection upwind" : "u*, convection linear"},
+      {"predict_flux", std::string("phi* of u*") +
+                           (modes_.flux_strain ? ", damped by the strain that it makes" : "")},
+      {"project", loaded ? "p, u and phi, with the answers of the openings" : "p, u and phi"},
+      {"hold_mean_velocity", where(forcing_.has_value(), "mean velocity as given")},
+  }};
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const auto& [name, what] = calls[i];
+    std::array<char, 48> head{};
+    std::snprintf(head.data(), head.size(), "(%2zu) %-22s ", i + 1, name);
+    lines.push_back(head.data() + (what.empty() ? "nothing" : what));
+  }
+  return lines;
+}
+
+}  // namespace fsi
