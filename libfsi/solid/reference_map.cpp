@@ -8,6 +8,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/koren.hpp"
+#include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -19,11 +20,11 @@ Real largest_rate(const Tensor& L) {
 
 }  // namespace
 
-ReferenceMap::ReferenceMap(const Mesh& mesh, Folded folded)
+ReferenceMap::ReferenceMap(const Mesh& mesh, Role role)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
-      folded_(folded),
+      beside_psi_(role == Role::beside_psi),
       stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
       known_(mesh),
       extension_(mesh),
@@ -84,7 +85,15 @@ void ReferenceMap::extend() {
   mesh_.halo.update(slope_);
 }
 
-Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const {
+bool ReferenceMap::at_surface(Index c) const {
+  return std::ranges::any_of(mesh_.cell_faces[c], [&](Index f) {
+    const Index n = beyond(mesh_, f, c);
+    return n >= 0 && filled_[n] < alpha_known;
+  });
+}
+
+Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot,
+                              Real dt) const {
   // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
   //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
   // with u_f linear between the cells and along the skewness, at boundaries from the cell.
@@ -95,7 +104,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Re
   }
   const FaceWeights& weights = snapshot.weights;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const bool forward = snapshot.phi[f] >= 0;
+  const bool forward = out == (P == c);
   const Index up = forward ? P : N, down = forward ? N : P;
   const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
@@ -127,15 +136,17 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
     // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
     // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
     // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
-    // the step.
+    // the step. Beside psi and at the surface, where a flux is that of solid and fluid, phi_f = w .
+    // S_f with w of `velocity_of_fluxes`, by which psi is strained too.
+    const bool rim = beside_psi_ && at_surface(c);
+    const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
     Vec3 sum, off;
     for (const Index f : mesh_.cell_faces[c]) {
-      const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
-      const Real phi = outward ? snapshot.phi[f] : -snapshot.phi[f];
+      const Real side = outward(mesh_, f, c);
+      const Real phi = side * (rim ? dot(w, mesh_.Sf[f]) : snapshot.phi[f]);
       const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
-      const Real linear = dot(dot(snapshot.L[c], r), mesh_.Sf[f]);
-      sum += phi * (r + face_value(f, c, snapshot, dt) - d[c]);
-      off += (outward ? linear : -linear) * r;
+      sum += phi * (r + face_value(f, c, phi >= 0, snapshot, dt) - d[c]);
+      if (!rim) off += (side * dot(dot(snapshot.L[c], r), mesh_.Sf[f])) * r;
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(snapshot.L[c], off));
     const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
@@ -144,7 +155,7 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
-  if (folded_ == Folded::refit) return refit();
+  if (beside_psi_) return refit();
   if (!all_of_ranks(!folded()))
     throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }
