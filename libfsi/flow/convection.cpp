@@ -33,6 +33,10 @@ Convection convection_of(const std::string& name) {
   return static_cast<Convection>(at - names.begin());
 }
 
+std::string name_of(Convection scheme) {
+  return convection_names()[static_cast<std::size_t>(scheme)];
+}
+
 std::vector<std::string> convection_names() {
   return {"linear", "symmetric", "linear_upwind", "limited"};
 }

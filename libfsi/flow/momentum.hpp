@@ -96,6 +96,8 @@ class Momentum {
   std::optional<Old>& old() { return old_; }
   /// What the viscous term makes of the conditions.
   const ViscousBoundary& boundary() const { return boundary_; }
+  /// The convection's scheme.
+  Convection scheme() const { return scheme_; }
   /// Whether L is read at all.
   bool reads_L() const {
     return scheme_ == Convection::linear_upwind || scheme_ == Convection::limited;

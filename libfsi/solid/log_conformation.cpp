@@ -115,7 +115,7 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
 
 void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_flow = 0.2;
-  constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
+  constexpr Real by_wave = 0.05;  // a wave along the surface gains energy at 0.01 c / h
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
     const Real rate = by_flow * courant_rate(snapshot.phi, mesh_, c) +

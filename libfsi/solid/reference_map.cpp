@@ -133,11 +133,13 @@ Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
-    // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
-    // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
-    // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
-    // the step. Beside psi and at the surface, where a flux is that of solid and fluid, phi_f = w .
-    // S_f with w of `velocity_of_fluxes`, by which psi is strained too.
+    //   d xi/dt = -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)),
+    // xi = x + d, r_f = x_f - x_c. The first term carries xi with (1/V) sum_f phi_f r_f; in a
+    // linear u that is off by the second one's velocity where a cell is not symmetric about its
+    // centre. Both in the middle of the step. Beside psi and at the surface, where a flux is that
+    // of solid and fluid, it is
+    //   d xi/dt = -(1/V) sum_f (w . S_f) (xi_f - xi_c),
+    // w of `velocity_of_fluxes`: a velocity as that which strains psi.
     const bool rim = beside_psi_ && at_surface(c);
     const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
     Vec3 sum, off;

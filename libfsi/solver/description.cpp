@@ -17,7 +17,7 @@ struct OfBody {
 
 std::string elastic(const Body& body) {
   if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
-    return "B carried and strained by grad u, spread around the solid by alpha";
+    return "alpha^(1/2) B carried and strained by grad u";
   std::string what = "the map carried";
   if (!std::holds_alternative<solid::ReferenceMap>(body.kinematics)) {
     what = "log B carried and strained by ";
@@ -44,13 +44,14 @@ OfBody calls_of(const Body& body) {
   if (body.remembers()) calls.memory = "the map carried beside log B";
   calls.elastic = elastic(body);
   calls.force = force(body);
-  if (body.semi_implicit())
-    calls.implicit = body.interface_gradient ? "kappa = 0.4 dt G lambda, and what damps"
-                                             : "kappa = 0.4 dt G lambda";
+  if (body.semi_implicit()) {
+    calls.implicit = "kappa = 0.4 dt G alpha_f lambda, and the damping e";
+    if (body.two_viscosities) calls.implicit += "; a share of the traction";
+  }
   return calls;
 }
 
-/// The line of a call; what is alike for all solids is said once.
+/// What a call does with each solid; by their names where there are several.
 std::string of_bodies(const std::deque<Body>& bodies, std::string OfBody::*call) {
   std::string line;
   for (const Body& body : bodies) {
@@ -84,8 +85,9 @@ std::vector<std::string> Solver::describe_step() const {
       {"add_elastic_force", solids(&OfBody::force)},
       {"add_semi_implicit", solids(&OfBody::implicit)},
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
-      {"balance_weight", where(heavy_.has_value(), "the force of rest out of the flux")},
-      {"predict_momentum", momentum_.reads_L() ? "u*, convection upwind" : "u*, convection linear"},
+      {"balance_weight", where(heavy_.has_value(),
+                               "first step: p at rest under the weight; then what is not at rest")},
+      {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
       {"predict_flux", std::string("phi* of u*") +
                            (modes_.flux_strain ? ", damped by the strain that it makes" : "")},
       {"project", loaded ? "p, u and phi, with the answers of the openings" : "p, u and phi"},
