@@ -8,7 +8,6 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/koren.hpp"
-#include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -20,11 +19,11 @@ Real largest_rate(const Tensor& L) {
 
 }  // namespace
 
-ReferenceMap::ReferenceMap(const Mesh& mesh, Role role)
+ReferenceMap::ReferenceMap(const Mesh& mesh, Folded folded)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
-      beside_psi_(role == Role::beside_psi),
+      folded_(folded),
       stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
       known_(mesh),
       extension_(mesh),
@@ -85,15 +84,7 @@ void ReferenceMap::extend() {
   mesh_.halo.update(slope_);
 }
 
-bool ReferenceMap::at_surface(Index c) const {
-  return std::ranges::any_of(mesh_.cell_faces[c], [&](Index f) {
-    const Index n = beyond(mesh_, f, c);
-    return n >= 0 && filled_[n] < alpha_known;
-  });
-}
-
-Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot,
-                              Real dt) const {
+Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const {
   // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
   //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
   // with u_f linear between the cells and along the skewness, at boundaries from the cell.
@@ -104,7 +95,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
   }
   const FaceWeights& weights = snapshot.weights;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const bool forward = out == (P == c);
+  const bool forward = snapshot.phi[f] >= 0;
   const Index up = forward ? P : N, down = forward ? N : P;
   const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
@@ -133,22 +124,18 @@ Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
-    //   d xi/dt = -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)),
-    // xi = x + d, r_f = x_f - x_c. The first term carries xi with (1/V) sum_f phi_f r_f; in a
-    // linear u that is off by the second one's velocity where a cell is not symmetric about its
-    // centre. Both in the middle of the step. Beside psi and at the surface, where a flux is that
-    // of solid and fluid, it is
-    //   d xi/dt = -(1/V) sum_f (w . S_f) (xi_f - xi_c),
-    // w of `velocity_of_fluxes`: a velocity as that which strains psi.
-    const bool rim = beside_psi_ && at_surface(c);
-    const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
+    // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
+    // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
+    // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
+    // the step.
     Vec3 sum, off;
     for (const Index f : mesh_.cell_faces[c]) {
-      const Real side = outward(mesh_, f, c);
-      const Real phi = side * (rim ? dot(w, mesh_.Sf[f]) : snapshot.phi[f]);
+      const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
+      const Real phi = outward ? snapshot.phi[f] : -snapshot.phi[f];
       const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
-      sum += phi * (r + face_value(f, c, phi >= 0, snapshot, dt) - d[c]);
-      if (!rim) off += (side * dot(dot(snapshot.L[c], r), mesh_.Sf[f])) * r;
+      const Real linear = dot(dot(snapshot.L[c], r), mesh_.Sf[f]);
+      sum += phi * (r + face_value(f, c, snapshot, dt) - d[c]);
+      off += (outward ? linear : -linear) * r;
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(snapshot.L[c], off));
     const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
@@ -157,7 +144,7 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
-  if (beside_psi_) return refit();
+  if (folded_ == Folded::refit) return refit();
   if (!all_of_ranks(!folded()))
     throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }

@@ -25,13 +25,11 @@ namespace fsi::solid {
 /// its place is undeformed again.
 class ReferenceMap {
  public:
-  /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
-  /// Beside psi it is carried at the surface by the velocity that strains psi, so that both stay
-  /// alike; a cell in which it has lost its volume is fitted to those around it, as where the solid
-  /// is new.
-  enum class Role { alone, beside_psi };
-  /// mesh must outlive it.
-  explicit ReferenceMap(const Mesh& mesh, Role role = Role::alone);
+  /// What becomes of a cell in which the map has lost its volume: an error, or its value is fitted
+  /// to those around it as where the solid is new.
+  enum class Folded { error, refit };
+  /// folded: what a map that folds does.
+  explicit ReferenceMap(const Mesh& mesh, Folded folded = Folded::error);
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
@@ -84,11 +82,8 @@ class ReferenceMap {
 
  private:
   Tensor gradient_of_map(Index c) const;
-  /// Whether a cell beyond a face of known cell c does not know its map.
-  bool at_surface(Index c) const;
-  /// The upwind value of d at face f half a step back along the particle's path; out: the flow
-  /// there leaves cell c.
-  Vec3 face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot, Real dt) const;
+  /// The upwind value of d at face f half a step back along the particle's path.
+  Vec3 face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
   /// What the error of volume moves the map by.
   Vec3 towards_volume(Index c, Real courant) const;
@@ -100,7 +95,7 @@ class ReferenceMap {
   void refit();
 
   const Mesh& mesh_;
-  bool beside_psi_;
+  Folded folded_;
   GradientStencil stencil_;
   Band known_;
   MapExtension extension_;
