@@ -18,7 +18,7 @@ enum class Convection {
 };
 /// Their names, in that order.
 std::vector<std::string> convection_names();
-/// Its name.
+/// The name of a scheme.
 std::string name_of(Convection scheme);
 /// The scheme of that name. Errors: Error{input}.
 Convection convection_of(const std::string& name);

@@ -10,7 +10,7 @@
 namespace fsi {
 namespace {
 
-/// What the calls that work on a solid do with this one, by their numbers; "": nothing.
+/// What the calls that work on a solid do with this one; "": nothing.
 struct OfBody {
   std::string hold, advance, jump, memory, elastic, force, implicit;
 };
