@@ -113,11 +113,14 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
   return fastest;
 }
 
-void LogConformation::recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt) {
-  constexpr Real rate = 0.2;
+void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
+  constexpr Real by_flow = 0.2;
+  constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
+  const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
-    const Real courant = dt * courant_rate(phi, mesh_, c);
-    const Real part = memory.trust(c) * (1 - std::exp(-rate * courant));
+    const Real rate = by_flow * courant_rate(snapshot.phi, mesh_, c) +
+                      by_wave * snapshot.wave_speed / cell_size(mesh_, c);
+    const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));
     if (memory.is_set[c] > 0 && part > 0) psi[c] += part * (log(memory.B(c, 1)) - psi[c]);
   }
 }
@@ -133,7 +136,7 @@ Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<S
   const Real fastest = rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
-  if (snapshot.memory) recall(*snapshot.memory, snapshot.phi, dt);
+  if (snapshot.memory) recall(snapshot, dt);
   if (snapshot.strain)
     extension_.fourth_difference_filter(psi, grad, snapshot.wave_speed, snapshot.recovery, dt);
   extension_.linear(psi, grad);

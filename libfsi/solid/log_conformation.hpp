@@ -79,10 +79,11 @@ class LogConformation {
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
-  /// psi <- psi + (1 - exp(-0.2 Co)) trust (log B_memory - psi) on known_.core(), Co the cell's
-  /// Courant number: psi wears down with the way through the mesh, and what wears it down does not
-  /// touch the map.
-  void recall(const ReferenceMap& memory, const FaceField<Real>& phi, Real dt);
+  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi) on known_.core(),
+  /// Co the cell's Courant number, c the speed of the elastic wave. psi wears down with the way
+  /// through the mesh, which does not touch the map. Where a stiff body hardly moves through the
+  /// mesh, waves along its surface grow: what the wave passes draws them back.
+  void recall(const FlowSnapshot& snapshot, Real dt);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;
 

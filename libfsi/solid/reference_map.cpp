@@ -7,7 +7,9 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
+#include "libfsi/solid/inward_normal.hpp"
 #include "libfsi/solid/koren.hpp"
+#include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -19,16 +21,21 @@ Real largest_rate(const Tensor& L) {
 
 }  // namespace
 
-ReferenceMap::ReferenceMap(const Mesh& mesh, Folded folded)
+ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>& walls)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
-      folded_(folded),
+      beside_psi_(role == Role::beside_psi),
+      at_wall_(mesh),
       stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
       known_(mesh),
       extension_(mesh),
       filled_(mesh),
-      slope_(mesh) {}
+      slope_(mesh) {
+  for (const Patch& patch : walls)
+    for (Index f = patch.begin; f < patch.end; ++f) at_wall_[mesh.owner[f]] = 1;
+  mesh.halo.update(at_wall_);
+}
 
 void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
   d.fill({});
@@ -84,7 +91,34 @@ void ReferenceMap::extend() {
   mesh_.halo.update(slope_);
 }
 
-Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const {
+bool ReferenceMap::leaves_known(Index f, Index c) const {
+  const Index n = beyond(mesh_, f, c);
+  return n >= 0 && filled_[n] < alpha_known;
+}
+
+bool ReferenceMap::in_open_fluid(Index c) const {
+  if (at_wall_[c] > 0) return false;
+  bool open = false;
+  for (const Index f : mesh_.cell_faces[c]) {
+    if (!leaves_known(f, c)) continue;
+    if (at_wall_[beyond(mesh_, f, c)] > 0) return false;
+    open = true;
+  }
+  return open;
+}
+
+Tensor ReferenceMap::mean_of_known(const CellField<Tensor>& L, Index c) const {
+  Tensor sum;
+  int count = 0;
+  for (const Index f : mesh_.cell_faces[c]) {
+    const Index n = beyond(mesh_, f, c);
+    if (n >= 0 && filled_[n] >= alpha_known) sum += L[n], ++count;
+  }
+  return count > 0 ? (1.0 / count) * sum : L[c];
+}
+
+Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot,
+                              Real dt) const {
   // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
   //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
   // with u_f linear between the cells and along the skewness, at boundaries from the cell.
@@ -95,7 +129,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, const FlowSnapshot& snapshot, Re
   }
   const FaceWeights& weights = snapshot.weights;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const bool forward = snapshot.phi[f] >= 0;
+  const bool forward = out == (P == c);
   const Index up = forward ? P : N, down = forward ? N : P;
   const Real share = forward ? weights.lambda[f] : 1 - weights.lambda[f];
   const Vec3 way = forward ? mesh_.d[f] : -mesh_.d[f];
@@ -124,27 +158,39 @@ Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
-    // -(1/V) sum_f (phi_f (xi_f - xi_c) - grad xi . r_f ((L . r_f) . S_f)), xi = x + d, r_f = x_f -
-    // x The first term carries xi with (1/V) sum_f phi_f r_f; in a linear u that is off by the
-    // second one's velocity where a cell is not symmetric about its centre. Both in the middle of
-    // the step.
-    Vec3 sum, off;
+    //   d xi/dt = -(1/V) (sum_f phi_f (xi_f - xi_c) - grad xi . off),   xi = x + d,
+    // in the middle of the step, r_f = x_f - x_c. The sum carries xi with (1/V) sum_f phi_f r_f. In
+    // a linear u, off = sum_f ((L . r_f) . S_f) r_f of it is wrong where a cell is not symmetric
+    // about its centre. Beside psi and at the surface, a flux that leads out of the known cells is
+    // that of solid and fluid: phi_f = (w + L . r_f) . S_f there, with w of `velocity_of_fluxes`
+    // and L of the known cells beside c. Along the surface, n its normal, the map moves with w, by
+    // which psi is strained. In a film of a cell at a wall the fluxes alone know what can pass: the
+    // wall holds the cells' velocity on one side, and a map carried by it is held there, too.
+    const bool rim = beside_psi_ && in_open_fluid(c);
+    const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
+    const Tensor L = rim ? mean_of_known(snapshot.L, c) : snapshot.L[c];
+    Vec3 sum, carried, off;
     for (const Index f : mesh_.cell_faces[c]) {
-      const bool outward = f >= mesh_.n_internal || mesh_.owner[f] == c;
-      const Real phi = outward ? snapshot.phi[f] : -snapshot.phi[f];
-      const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c];
-      const Real linear = dot(dot(snapshot.L[c], r), mesh_.Sf[f]);
-      sum += phi * (r + face_value(f, c, snapshot, dt) - d[c]);
-      off += (outward ? linear : -linear) * r;
+      const Real side = outward(mesh_, f, c);
+      const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c], of_L = dot(L, r);
+      const Real phi =
+          side * (rim && leaves_known(f, c) ? dot(w + of_L, mesh_.Sf[f]) : snapshot.phi[f]);
+      sum += phi * (r + face_value(f, c, phi >= 0, snapshot, dt) - d[c]);
+      carried += phi * r;
+      off += (side * dot(of_L, mesh_.Sf[f])) * r;
     }
-    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(snapshot.L[c], off));
+    if (rim) {
+      const Vec3 n = inward_normal(filled_, mesh_, c), more = carried - off - mesh_.V[c] * w;
+      off += more - dot(more, n) * n;
+    }
+    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(L, off));
     const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
     new_.push_back(d[c] - (dt / mesh_.V[c]) * sum + towards_volume(c, courant));
   }
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();
-  if (folded_ == Folded::refit) return refit();
+  if (beside_psi_) return refit();
   if (!all_of_ranks(!folded()))
     throw Error(ErrorKind::numerics, "the reference map folds: det grad xi <= 0");
 }

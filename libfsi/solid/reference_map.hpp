@@ -25,11 +25,14 @@ namespace fsi::solid {
 /// its place is undeformed again.
 class ReferenceMap {
  public:
-  /// What becomes of a cell in which the map has lost its volume: an error, or its value is fitted
-  /// to those around it as where the solid is new.
-  enum class Folded { error, refit };
-  /// folded: what a map that folds does.
-  explicit ReferenceMap(const Mesh& mesh, Folded folded = Folded::error);
+  /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
+  /// Beside psi it is carried along the surface by the velocity that strains psi, so that both stay
+  /// alike; a cell in which it has lost its volume is fitted to those around it, as where the solid
+  /// is new.
+  enum class Role { alone, beside_psi };
+  /// Collective. walls: the patches that hold the velocity; used beside psi. mesh must outlive it.
+  explicit ReferenceMap(const Mesh& mesh, Role role = Role::alone,
+                        const std::vector<Patch>& walls = {});
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;
@@ -82,8 +85,16 @@ class ReferenceMap {
 
  private:
   Tensor gradient_of_map(Index c) const;
-  /// The upwind value of d at face f half a step back along the particle's path.
-  Vec3 face_value(Index f, Index c, const FlowSnapshot& snapshot, Real dt) const;
+  /// Whether face f leads from known cell c to one that does not know its map.
+  bool leaves_known(Index f, Index c) const;
+  /// Whether known cell c has fluid beside it, and no wall at it or at the cells of that fluid.
+  bool in_open_fluid(Index c) const;
+  /// Mean of L over the known cells beyond the faces of c: the solid's, while L of c has the kink
+  /// of u at the surface; L of c where there are none.
+  Tensor mean_of_known(const CellField<Tensor>& L, Index c) const;
+  /// The upwind value of d at face f half a step back along the particle's path; out: the flow
+  /// there leaves cell c.
+  Vec3 face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
   /// What the error of volume moves the map by.
   Vec3 towards_volume(Index c, Real courant) const;
@@ -95,7 +106,8 @@ class ReferenceMap {
   void refit();
 
   const Mesh& mesh_;
-  Folded folded_;
+  bool beside_psi_;
+  CellField<Real> at_wall_;  ///< 1 in cells with a face on a wall; owned and halo
   GradientStencil stencil_;
   Band known_;
   MapExtension extension_;

@@ -93,7 +93,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   if (extended() && mesh.dim == 3 && solid::has_simplices(mesh)) off_walls.emplace(mesh, walls);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
-    memory.emplace(mesh, solid::ReferenceMap::Folded::refit);
+    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls);
     memory->set_undeformed(alpha);
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);

@@ -5,8 +5,8 @@
 
 The load is steady after t = 2, so an elastic ring is too. From there to t = 4 the aspect of each section of its
 tube, 24 cells per pipe diameter, changes by no more than 1 % with log_conformation and with the reference map
-(measured: 0.3 and 0.4 %; without the memory 3.6 % an unit of time), the energies of stress and shape are within 40 %
-of the larger (measured: 35; the map is rough at the surface), and the ring stays on the axis.
+(measured: 0.3 and 0.4 %; without the memory 3.6 % an unit of time), the energies of stress and shape are within 10 %
+of the larger (measured: 2), and the ring stays on the axis.
 """
 import csv
 import os
@@ -37,7 +37,7 @@ def main():
                 bad.append(f"{kinematics}: {section} changes")
         stress, shape, angle = (late[-1][c] for c in ("elastic_energy", "shape_energy", "angle"))
         print(f"{kinematics}: energy of the stress {stress:.3e}, of the shape {shape:.3e}, angle {angle:.4f}")
-        if abs(stress - shape) > 0.4 * max(stress, shape):
+        if abs(stress - shape) > 0.1 * max(stress, shape):
             bad.append(f"{kinematics}: stress and shape part")
         if abs(late[-1]["y"] - 0.5) > 1e-3 or angle > 0.1:
             bad.append(f"{kinematics}: the ring leaves the axis")
