@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::analysis {
 namespace {
@@ -27,6 +28,26 @@ Moments moments(const CellField<Real>& alpha, const CellField<Vec3>& u, const Me
   std::array<Real, 7> total{};
   Sum::totals(total, sums);
   return {total[0], {total[1], total[2], total[3]}, {total[4], total[5], total[6]}};
+}
+
+/// sum alpha V L . way, L = (1/V) sum_f u_f (x) S_f: how the mean of u changes along a way that all
+/// of the solid goes. At the boundary u_f is that of the cell.
+Vec3 change_along(const Vec3& way, const CellField<Real>& alpha, const CellField<Vec3>& u,
+                  const Mesh& mesh) {
+  std::array<Sum, 3> sums;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (alpha[c] == 0) continue;
+    Vec3 change;
+    for (const Index f : mesh.cell_faces[c]) {
+      const Index n = beyond(mesh, f, c);
+      const Vec3 u_f = n < 0 ? u[c] : (u[c] + u[n]) / 2;
+      change += (outward(mesh, f, c) * dot(mesh.Sf[f], way)) * u_f;
+    }
+    for (int i = 0; i < 3; ++i) sums[i].add(alpha[c] * change[i]);
+  }
+  std::array<Real, 3> total{};
+  Sum::totals(total, sums);
+  return {total[0], total[1], total[2]};
 }
 
 /// Centre of the fullest cell, of equals the first in the mesh file: a point in the solid.
@@ -73,7 +94,7 @@ Index nearest_image(const Mesh& mesh, const Vec3& x, const Vec3& about) {
 }
 
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
-              const Mesh& mesh) {
+              const Mesh& mesh, Real ahead) {
   // From a point inside, the mean over nearest images moves to the centroid in a few rounds.
   constexpr int first_rounds = 8;
   if (!tracker.started) tracker.home = point_inside(alpha, mesh), tracker.middle = middle(mesh);
@@ -88,7 +109,9 @@ Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Ve
   const Vec3 centroid = tracker.home + tracker.travelled;
   const Vec3 jump = mesh.translation[nearest_image(mesh, tracker.home, tracker.middle)];
   tracker.home += jump, tracker.travelled -= jump;
-  return {sum.volume, centroid, sum.momentum / sum.volume};
+  Vec3 velocity = sum.momentum / sum.volume;
+  if (ahead != 0) velocity += change_along(ahead * velocity, alpha, u, mesh) / sum.volume;
+  return {sum.volume, centroid, velocity};
 }
 
 }  // namespace fsi::analysis

@@ -227,7 +227,8 @@ std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wa
 std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Mesh& mesh = solver.mesh();
   tracker_.started = started_ != 0;
-  const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh);
+  const Real ahead = solver.state().t - body.t;
+  const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh, ahead);
   started_ = tracker_.started ? 1 : 0;
   const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
   const analysis::Orientation o = analysis::orientation(surface, tracker_.home, orientation_);
@@ -242,7 +243,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
                 .elastic_energy = elastic_energy(body),
                 .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};
-  add(row, {"x", "y", "z"}, m.centroid + (solver.state().t - body.t) * m.velocity);
+  add(row, {"x", "y", "z"}, m.centroid + ahead * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);
   row.push_back({"volume", m.volume});
   row.push_back({"volume_out", body.volume_out});
@@ -257,7 +258,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   row.push_back({"min_eig_B", h.eigenvalue_min});
   row.push_back({"pieces", static_cast<Real>(soundness_.pieces), Course::step});
   row.push_back({"overshoot", body.advected.remaining, Course::step});
-  const Taylor shape = taylor(body, solver.state().u, tracker_.home, solver.state().t - body.t);
+  const Taylor shape = taylor(body, solver.state().u, tracker_.home, ahead);
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
   row.push_back({"elastic_energy", soundness_.elastic_energy, Course::energy});

@@ -29,6 +29,23 @@ TEST(Motion, CentroidVelocityAndVolume) {
   EXPECT_LE(norm(tracker.home + tracker.travelled - m.centroid), 1e-15);
 }
 
+TEST(Motion, VelocityOfALaterTimeThanTheSolids) {
+  const Mesh mesh = test::read_box({{20, 20, 20}});
+  CellField<Real> alpha(mesh);
+  CellField<Vec3> u(mesh);
+  const Vec3 x{0.45, 0.5, 0.55}, speed{1, -2, 3}, spin{0, 1, 2};
+  vof::fill(alpha, mesh, translate(sphere(0.25), x));
+  // The solid turns about its centroid, which has gone on by the time of u.
+  constexpr Real ahead = 0.01;
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    u[c] = speed + cross(spin, mesh.C[c] - (x + ahead * speed));
+  Tracker tracker;
+  const Motion m = motion(tracker, alpha, u, mesh, ahead);
+  const Vec3 aside = cross(spin, ahead * speed);
+  EXPECT_GT(norm(aside), 0.05);
+  EXPECT_LE(norm(m.velocity - speed), 1.01 * norm(cross(spin, ahead * aside)));
+}
+
 TEST(Motion, NoJumpAcrossPeriodicSeams) {
   const Mesh mesh =
       test::read_box({{32, 16, 0}, {2, 1, 1}, false, {"left", "right", "bottom", "top"}});
