@@ -35,10 +35,11 @@ struct Conic {
 };
 
 /// Least squares of the conic's left-hand side over the points, under 4 a c - b^2 = 1, which only
-/// an ellipse meets [Fitzgibbon99]; split into quadratic and linear part [Halir98]: with M the
-/// quadratic moments after the best linear part is taken out, M a = l C a, C = ((0 0 2) (0 -1 0) (2
-/// 0 0)), and the one positive 1/l of M^(-1/2) C M^(-1/2) belongs to the ellipse. m: moments about
-/// the mean, so first ones vanish.
+/// an ellipse meets [Fitzgibbon99]. It is split into a quadratic and a linear part [Halir98]. With
+/// M the quadratic moments after the best linear part is taken out,
+///   M a = l C a,   C = ((0 0 2) (0 -1 0) (2 0 0)).
+/// The one positive 1/l of M^(-1/2) C M^(-1/2) belongs to the ellipse. m: moments about the mean,
+/// so that the first ones vanish.
 Conic fitted(const Means& m) {
   const Real xx = m[2][0], xy = m[2][1], yy = m[2][2];
   const Real d = xx * yy - xy * xy;

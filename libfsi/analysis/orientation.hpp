@@ -26,8 +26,9 @@ Orientation orientation(const Surface& surface, const Vec3& centroid,
 /// Between a line along v and the x axis, degrees, 0 to 90; v is a unit vector or 0.
 Real angle_to_x(const Vec3& v);
 
-/// Angle in the x-y plane from a line along `from` to one along `to`, degrees, above -90 and up
-/// to 90; 0 where one of them is within a thousandth of the z axis, about which it may turn freely.
+/// Angle in the x-y plane from a line along `from` to one along `to`, in degrees, above -90 and up
+/// to 90. It is 0 where one of them is within a thousandth of the z axis, about which it may turn
+/// freely.
 Real turn_about_z(const Vec3& from, const Vec3& to);
 
 }  // namespace fsi::analysis

@@ -12,10 +12,10 @@ namespace fsi {
 enum class InflowProfile { plug, parabola };
 
 /// Collective. [faces of the patch on this rank] the velocity that carries a flow rate of 1 into
-/// the domain: u = -n w / int w dA, n the mean normal of the patch; plug: w = 1, parabola: in the
+/// the domain: u = -n w / int w dA, n the mean normal of the patch. plug: w = 1. parabola: in the
 /// patch
 ///   Lap w = -1,   w = 0 at its rim,
-/// by linear finite elements on its faces, whose mean over a face is taken. free: patches without
+/// by linear finite elements on its faces. The mean over a face is taken. free: patches without
 /// friction (planes of symmetry), along which the rim has no condition. Errors: Error{input} where
 /// the whole patch is one row of faces, so that no corner lies inside.
 std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,

@@ -8,14 +8,15 @@
 
 namespace fsi::flow {
 
-/// Solves the openings' loads together with the projection. The pressure matrix is constant, so
-/// the flux of a unit of q at loaded opening k, phi_k = -grad q_k . S, is too: a step's flow rates
-/// are Q_j = Q_j* + sum_k S_jk pi_k, S_jk the sum of phi_k over opening j, pi = dt / rho times what
-/// the pressures change by besides what was projected. With
+/// Solves the openings' loads together with the projection. The pressure matrix is constant, and so
+/// is the flux of a unit of q at loaded opening k, phi_k = -grad q_k . S. The flow rates of a step
+/// are
+///   Q_j = Q_j* + sum_k S_jk pi_k,   S_jk: the sum of phi_k over opening j,
+/// with pi = dt / rho times what the pressures change by besides what was projected. With
 ///   p_j = p_far + R_p Q_mid + p_c,   C dp_c/dt = Q_mid - p_c / R_d  by the midpoint rule,
 ///   Q_mid = Q^(n+1) - (dt / 2) (Q^n - Q^(n-1)) / dt_old
-/// that is one small linear system a step, implicit and of second order, damped where a step is
-/// long for the load (doc/theory/flow.md).
+/// that is one small linear system a step. It is implicit and of second order, and damped where a
+/// step is long for the load (doc/theory/flow.md).
 class Loads {
  public:
   /// Collective. One projection for each loaded opening. openings: must outlive it.

@@ -16,10 +16,11 @@
 namespace fsi::flow {
 
 /// Weights of what is known at t^n, at dt_old before and at dt_before before that, for its mean
-/// over the dt after t^n [Hairer93] (III.5): by the line through the first two and the part
-/// `ab3_weight` of what the parabola through all three adds to it; 1: exact for quadratic functions
-/// of t, 0: for linear ones. By the line where dt_before is 0 or a step more than twice the one
-/// before it, so far beyond which the parabola would exaggerate; by the first where dt_old is 0.
+/// over the dt after t^n [Hairer93] (III.5). They are those of the line through the first two and
+/// of the part `ab3_weight` of what the parabola through all three adds to it. With a part of 1
+/// they are exact for quadratic functions of t, with 0 for linear ones. By the line alone where
+/// dt_before is 0 or a step more than twice the one before it, so far beyond which the parabola
+/// would exaggerate; by the first where dt_old is 0.
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight);
 
 /// What the predictor needs besides u.
@@ -40,21 +41,22 @@ struct MomentumTerms {
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
 };
 
-/// The predictor [Matsumiya25] (12), second order in time (Adams-Bashforth of third order for
-/// convection, of second for the explicit viscous rest), in increments w = u* - u^n:
+/// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
+/// Convection is by Adams-Bashforth of third order, the explicit viscous rest by that of second:
 ///   rho V w / dt - sum_f (theta_f mu + kappa) g (w_N - w_P)
 ///     = -rho AB3(conv) + visc(u^n) - visc((theta_f - 1/2) (dt / dt_old) (u^n - u^(n-1)))
 ///       + AB2(rest) + V (-grad p^(n-1/2) + f + S).
-/// What moves with a body through the mesh changes by Courant numbers in a step: there AB2 is off
-/// by 5/12 Co^2 of a wave's second difference, more than half of what the linear face value is
-/// (1/6) at Co = 0.5. Between Courant numbers of 0.66 and 0.9 AB3 gives way to AB2.
+/// What moves with a body through the mesh changes by Courant numbers in a step. There AB2 is off
+/// by 5/12 Co^2 of a wave's second difference. At Co = 0.5 that is more than half of the 1/6 by
+/// which the linear face value is off. Between Courant numbers of 0.66 and 0.9 AB3 gives way to
+/// AB2.
 ///
-/// theta_f = (1 + tan) / 2, at most 1, tan that of the angle between d and Sf: with rho u_t =
-/// -l (1 + r) u, r l u explicit, the factor z of a step,
+/// theta_f = (1 + tan) / 2, at most 1, tan that of the angle between d and Sf. Let rho u_t = -l
+/// (1 + r) u with r l u explicit. The factor z of a step, with l for l dt / rho,
 ///   (1 + theta l) z^2 - (1 + (2 theta - 3/2) l - 3/2 r l) z + (theta - 1/2 - r / 2) l = 0
-/// (l for l dt / rho), stays in the unit circle for any l where r < 2 theta - 1, and the term in
-/// u^(n-1) keeps it of second order. 1 in the first steps, which damps what an impulsive start
-/// leaves, without that term, and at all faces where mu_s / mu_f > 2.
+/// stays in the unit circle for any l where r < 2 theta - 1. The term in u^(n-1) keeps it of second
+/// order. theta_f is 1 at all faces where mu_s / mu_f > 2, and in the first steps, without that
+/// term: this damps what an impulsive start leaves.
 class Momentum {
  public:
   /// Collective. rho, mu_0: of the fluid; mesh, weights and conditions must outlive it.

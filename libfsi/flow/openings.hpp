@@ -19,10 +19,10 @@ namespace fsi::flow {
 ///
 ///   p_b = p + rho / 2 (s U^2 - u_n^2)     where u_n = u_P . n < 0,
 ///
-/// U the best fit of u_n over the opening by polynomials of up to fourth degree in its plane (as
-/// many as a quarter of its faces bears), s the part of the inflow that is not flow back,
-/// max(0, sum of inflow and outflow) / inflow: an inlet whose profile is smooth keeps its static
-/// pressure, flow back into an outlet costs its own dynamic pressure, the directional do-nothing
+/// U is the best fit of u_n over the opening by polynomials of up to fourth degree in its plane, as
+/// many as a quarter of its faces bears. s is the part of the inflow that is not flow back, max(0,
+/// sum of inflow and outflow) / inflow. So an inlet whose profile is smooth keeps its static
+/// pressure. Flow back into an outlet costs its own dynamic pressure: the directional do-nothing
 /// condition [Braack14].
 class Openings {
  public:

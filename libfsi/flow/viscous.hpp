@@ -37,10 +37,10 @@ void viscous_oblique(CellField<Vec3>& rest, const FaceField<Real>& mu,
                      const std::vector<Tensor>& L_f, const ViscousBoundary& boundary,
                      const FaceWeights& weights, const Mesh& mesh);
 
-/// rest_c += (grad u)_c^T . sum_f (mu_f - mu_0) S_f: by div u = 0 the transpose is (grad u)^T .
-/// grad mu, which acts only where mu changes; as a sum of fluxes mu (grad u)_f^T . S_f it would
-/// feed, all over the more viscous phase, on what little divergence the cell velocities have,
-/// explicitly.
+/// rest_c += (grad u)_c^T . sum_f (mu_f - mu_0) S_f. By div u = 0 the transpose is (grad
+/// u)^T . grad mu, which acts only where mu changes. The sum of fluxes mu (grad u)_f^T . S_f,
+/// explicit too, would feed on what little divergence the cell velocities have, all over the more
+/// viscous phase.
 void viscous_transposed(CellField<Vec3>& rest, const FaceField<Real>& mu, Real mu_0,
                         const CellField<Tensor>& L, const ViscousBoundary& boundary,
                         const Mesh& mesh);

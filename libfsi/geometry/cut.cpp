@@ -144,7 +144,8 @@ Vec3 passing(const Vec3& a, const Vec3& b, Real qa, Real qb, Real s) {
 }
 
 /// 3-D: area = |sum (p - o) x (r - o)| / 2 over the segments (p, r) in which facets are cut, o any
-/// point of the plane; walked around an outward facet, r is where it leaves the part below.
+/// point of the plane. On a walk around an outward facet, r is where the walk leaves the part
+/// below.
 Cut cut_polyhedron(const Polytope& cell, const Plane& plane) {
   const auto x = cell.points();
   std::array<Real, Polytope::max_points> q;

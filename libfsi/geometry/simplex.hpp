@@ -52,11 +52,11 @@ Real negative_fraction(const std::array<Real, 3>& value);
 Real negative_fraction(const std::array<Real, 4>& value);
 
 /// Area or volume, in [0, measure(x)], where the quadratic function with these values at the
-/// corners and at the edge middles is negative, to first order in its departure q from the linear
-/// function:
+/// corners and at the edge middles is negative. It is of first order in the departure q from the
+/// linear function:
 ///   V = V_linear - integral over the linear zero set of q / |grad phi| dA.
 /// For the distance to a smooth surface the error falls with the fifth power of the size (area:
-/// fourth) or faster; exact where the function is linear. No correction where the corners are of
+/// fourth) or faster. Exact where the function is linear. No correction where the corners are of
 /// one sign.
 Real negative_measure(const Triangle& x, const std::array<Real, 3>& corner,
                       const std::array<Real, 3>& middle);

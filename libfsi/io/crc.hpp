@@ -33,8 +33,9 @@ inline std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t befor
   return ~crc;
 }
 
-/// The check of a followed by b, from the checks of both and the length of b in bytes: one step of
-/// the check for a zero bit is linear, so `length` of them are a power of its matrix [zlib].
+/// The check of a followed by b, from the checks of both and the length of b in bytes. One step of
+/// the check for a zero bit is linear, so the steps of all bits of b are a power of its matrix
+/// [zlib].
 inline std::uint64_t crc64_joined(std::uint64_t a, std::uint64_t b, std::uint64_t length) {
   using Matrix = std::array<std::uint64_t, 64>;
   const auto apply = [](const Matrix& m, std::uint64_t v) {

@@ -26,9 +26,9 @@ Real edge(const Mesh& mesh, Index c);
 ///   sum over the cells it crosses of (length within the cell) / (size of the cell).
 /// The size of a triangle or tetrahedron is its edge, as above, in all directions. That of any
 /// other cell is its extent along the line, from the first to the last corner, so that thin layers
-/// count as layers: in a block of n bricks from wall to wall it is n.
-/// The result is the line with the fewest cells. Lines of more than a thousand cells do not count.
-/// Errors: Error{input} for an unknown patch.
+/// count as layers. A block of n bricks from wall to wall has n cells. The result is the line with
+/// the fewest cells. Lines of more than a thousand cells do not count. Errors: Error{input} for an
+/// unknown patch.
 Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls = {});
 
 }  // namespace fsi

@@ -10,10 +10,10 @@
 
 namespace fsi {
 
-/// Weights of the quasi-Green gradient [Syrakos23]: with d_cf the vector from cell c to the value
-/// beyond face f and the Gauss-linear weights g0_cf = lambda_cf S_cf / V_c,
+/// Weights of the quasi-Green gradient [Syrakos23]. With d_cf the vector from cell c to the value
+/// beyond face f and the Gauss-linear weights g0_cf = lambda_cf S_cf / V_c, it is
 ///   grad q_c = sum_f g_cf (q_f - q_c),   g_cf = M_c^-1 g0_cf,   M_c = sum_f g0_cf (x) d_cf.
-/// On an orthogonal mesh M = I: plain Gauss, the adjoint of the face-averaged divergence.
+/// On an orthogonal mesh M = I. That is plain Gauss, the adjoint of the face-averaged divergence.
 /// Boundary faces take part where the field has a value there; on the other patches the field is
 /// extrapolated linearly from inside.
 struct GradientStencil {

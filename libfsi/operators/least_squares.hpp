@@ -1,9 +1,9 @@
 #pragma once
 // Slopes and quadratics by least squares over the places around a cell.
 //
-// A slope g of q, min over g of sum w |g . r - dq|^2 over places r with w = 1 / |r|^2, is that of
+// The slope g of q at places r makes sum w |g . r - dq|^2 least, w = 1 / |r|^2. It is that of
 //   g . M = R,   M = sum w r (x) r,   R = sum w dq (x) r.
-// What to do where M does not tell g in all directions is for the user to choose: leave these out
+// Where M does not tell g in all directions the user chooses: leave these out
 // (`for_told_directions`, `pseudo_inverse`), let g tend to zero there (`raised_inverse`), or take
 // no fit (`tells`).
 

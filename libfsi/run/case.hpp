@@ -71,10 +71,10 @@ std::string simulated(const Options& options);
 /// where it does not.
 std::string differences(const std::string& before, const std::string& now);
 
-/// Collective. Prints what the run is about: the mesh and its figures, a warning where one is past
-/// its limit (mesh/figures.hpp), the fluid, what loads the openings, and the numbers that follow
-/// from the case's length and velocity. Where the velocity is 0 it is not known yet, and what
-/// depends on it is left out.
+/// Collective. Prints what the run is about: the mesh and its figures, with a warning where one is
+/// past its limit (mesh/figures.hpp), the fluid, and what loads the openings. Then come the numbers
+/// that follow from the case's length and velocity. Where the velocity is 0 it is not known yet,
+/// and what depends on it is left out.
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity);
 
 /// Collective. Every limit on the time step; a fixed step is the only one.

@@ -10,10 +10,10 @@
 
 namespace fsi {
 
-/// What the solver does about the cells of a mesh, by owned cell: the largest of its internal
-/// faces' upwind shares beta and implicit shares theta_f (operators/face_weights.hpp), and the
-/// Courant rate of a flow of speed 1 along the axis that makes it largest,
-/// max_k sum_f |S_f . e_k| / (2 V).
+/// What the solver does about the cells of a mesh, by owned cell. beta and theta are the largest of
+/// the upwind shares beta and of the implicit shares theta_f of its internal faces
+/// (operators/face_weights.hpp). rate is the Courant rate of a flow of speed 1 along the axis that
+/// makes it largest, max_k sum_f |S_f . e_k| / (2 V).
 struct Treatment {
   std::vector<Real> beta, theta, rate;          ///< [n_owned]
   Real beta_mean = 0, theta_mean = 0;           ///< over the internal faces of all ranks

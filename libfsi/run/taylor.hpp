@@ -11,10 +11,10 @@ struct Taylor {
   Real angle = 0;        ///< of a to the x axis, degrees, above -90 and up to 90; 0 for a circle
 };
 
-/// Collective. From the moments of the solid behind its planes (exact for these, second order in
-/// the cell size for the solid), moved on by `later`:
+/// Collective. From the moments of the solid behind its planes, moved on by `later`. They are exact
+/// for the planes and of second order in the cell size for the solid:
 ///   dM/dt = integral of u x + x u, M = integral of x x.
-/// u: of the cells; about: a point in the solid next to which its parts are placed, near the
+/// u: of the cells. about: a point in the solid next to which its parts are placed, near the
 /// centroid.
 Taylor taylor(const Body& body, const CellField<Vec3>& u, const Vec3& about, Real later);
 

@@ -52,8 +52,8 @@ Vec3 unit(const Vec3& axis) {
 }
 
 /// Signed distance to an axis-aligned ellipsoid. The foot point is y_i = a_i^2 p_i / (a_i^2 + t)
-/// with t the largest root of F(t) = sum (a_i p_i / (a_i^2 + t))^2 - 1; with s = t + min a_i^2
-/// nothing cancels, F falls and is convex in s > 0, and Newton's iteration from the left climbs to
+/// with t the largest root of F(t) = sum (a_i p_i / (a_i^2 + t))^2 - 1. With s = t + min a_i^2
+/// nothing cancels. F falls and is convex in s > 0, so Newton's iteration from the left climbs to
 /// the root.
 Real ellipsoid_distance(const std::array<Real, 3>& a, const std::array<Real, 3>& p) {
   const Real least = *std::ranges::min_element(a);

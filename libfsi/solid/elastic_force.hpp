@@ -26,12 +26,13 @@ class ElasticForce {
 
   /// Collective. tau = G dev(alpha T)                                     [Matsumiya25] (11)
   /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha T linear between cells, as in the paper.
-  /// With alpha_f, tau_f = G dev T_f of T linear between cells, m the normal and s = m . tau_f . m,
+  /// With alpha_f, tau_f = G dev T_f is that of T linear between cells. With m the normal and
+  /// s = m . tau_f . m,
   ///   force_c = (1/V) sum_f (alpha_f (tau_f - s I) + alpha_c s I) . S_f
-  ///             + sum_f g_cf s (alpha_n - alpha_c):
-  /// the part that a jump of the pressure bears is differenced as the pressure is, by the weights
-  /// g_cf of the stencil, the other as the viscous flux. Skewness correction throughout.
-  /// At boundaries alpha T (with alpha_f: T) continues linearly.
+  ///             + sum_f g_cf s (alpha_n - alpha_c).
+  /// The part that a jump of the pressure bears is differenced as the pressure is, by the weights
+  /// g_cf of the stencil. The other is differenced as the viscous flux. Skewness correction
+  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly.
   /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f
   /// that of the cells' alpha times T, and that of the jump of the pressure. It vanishes for a
   /// linear stress. Both are added to what is there. force: owned and halo after. grad: scratch

@@ -20,8 +20,8 @@ inline constexpr Real alpha_known = 0.5;
 ///   linear     T = sum w (T_k + g_k . r) / sum w,   g = sum w g_k / sum w
 ///   constant   T = sum w T_k / sum w
 ///
-/// g of a known cell: least squares over its known vertex neighbours, times the part of it that
-/// the mean m over the surrounded ones among them bears out, (g : m) / (g : g) within [0, 1].
+/// g of a known cell is that of least squares over its known vertex neighbours. It counts as far as
+/// the mean m over the surrounded ones among them bears it out, by (g : m) / (g : g) within [0, 1].
 /// A cell with no known one behind any of its faces counts as not known: the strain of such a speck
 /// is told by nothing and would grow without bound. Surrounded: the face neighbours are all known
 /// and no face is of the boundary. Exact for a linear T but where the solid is thin, which goes on

@@ -31,16 +31,17 @@ struct Cuts {
 ///
 /// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
 /// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells of the solid beside its
-/// surface take the gradients of those farther in as well. Where that does not tell it, the solid
-/// or what is around it being thinner than the stencil, L stays the library's, which answers to the
-/// stress as that acts on the velocity: one of the few values of one side alone does not, and a
-/// wisp in a corner of the cavity tore the flow apart.
+/// surface take the gradients of those farther in as well. That does not tell L where the solid, or
+/// what is around it, is thinner than the stencil. There L stays the library's, which answers to
+/// the stress as that acts on the velocity. One of the few values of one side alone does not, and
+/// with it a wisp in a corner of a cavity can tear the flow apart.
 ///
-/// The velocity of a cut cell is neither side's: the fit of the solid's takes u - j phi, that of
-/// the fluid's u - j (phi - s) (Cuts),
+/// The velocity of a cut cell is neither side's. The fit of the solid's takes u - j phi, that of
+/// the fluid's u - j (phi - s) (Cuts), with
 ///   j = (I - n n) . (L_out - L_in) . n,
-/// the normal part left out as div u = 0 leaves none there: from a first fit without it, L_in and
-/// L_out the means over the vertex neighbours on either side, with weights alpha and 1 - alpha.
+/// The normal part is left out, as div u = 0 leaves none there. j is from a first fit without it:
+/// L_in and L_out are the means over the vertex neighbours on either side, with weights alpha and
+/// 1 - alpha.
 class InterfaceGradient {
  public:
   /// mesh must outlive it.
@@ -52,13 +53,13 @@ class InterfaceGradient {
              const Cuts& cuts, std::span<const Index> cells);
 
   /// Collective, after `apply` with the same L, u, u_b, alpha and cells, all of the solid's among
-  /// them. Sets `strain` in the solid's cells: L in those whose vertex neighbours are all of the
-  /// solid and tell the fit; in the others, by the pairs of cells of the solid,
+  /// them. Sets `strain` in the solid's cells. It is L in those whose vertex neighbours are all of
+  /// the solid and tell the fit. In the others it is, by the pairs of cells of the solid,
   ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2,
-  /// and by u_b as where L changes no more (`one_sided_gradient`), all at once in a few sweeps, of
-  /// which the first takes L_c for L_k where k is such a cell too. Exact for linear u; what one
-  /// sweep leaves of a quadratic, the next ones take down. A quadratic fit from one side answers to
-  /// the errors of few values.
+  /// and by u_b as where L changes no more (`one_sided_gradient`). All are found at once in a few
+  /// sweeps, of which the first takes L_c for L_k where k is such a cell too. This is exact for
+  /// linear u. What one sweep leaves of a quadratic, the next ones take down. A quadratic fit from
+  /// one side answers to the errors of few values.
   void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
                   const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
                   std::span<const Index> cells);

@@ -8,10 +8,10 @@
 
 namespace fsi::solid {
 
-/// Limited half step from the upwind value: with r = 2 slope / step - 1 the upwind over the
-/// downwind difference, slope that of the upwind cell's gradient,
+/// Limited half step from the upwind value. With r = 2 slope / step - 1 the upwind over the
+/// downwind difference, slope that of the upwind cell's gradient, it is
 ///   max(0, min(2 r, (2 + r) / 3, 2)) step / 2                                       [Koren93]
-/// third order on smooth profiles of a uniform mesh.
+/// It is of third order on smooth profiles of a uniform mesh.
 inline Real koren(Real step, Real slope) {
   const Real upwind = 2 * slope - step;
   if (upwind * step <= 0) return 0;

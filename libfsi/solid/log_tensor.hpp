@@ -21,10 +21,10 @@ SymTensor exp(const SymTensor& psi);
 /// psi = log(B), B positive definite.
 SymTensor log(const SymTensor& B);
 
-/// Rate of psi = log(B) following the material where B moves by dB/dt = L . B + B . L^T
-/// [Fattal04] (19), in the eigenframe e_i of psi with M_ij = e_i . L e_j and d = psi_j - psi_i:
+/// Rate of psi = log(B) following the material where B moves by dB/dt = L . B + B . L^T [Fattal04]
+/// (19). In the eigenframe e_i of psi, with M_ij = e_i . L e_j and d = psi_j - psi_i, it is
 ///   (dpsi/dt)_ij = b(-d) M_ij + b(d) M_ji,   b(d) = d / (exp(d) - 1),   b(0) = 1,
-/// which holds on the diagonal and for equal eigenvalues too.
+/// This holds on the diagonal and for equal eigenvalues too.
 SymTensor log_rate(const Tensor& L, const SymTensor& psi);
 
 }  // namespace fsi::solid

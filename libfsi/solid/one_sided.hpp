@@ -9,10 +9,10 @@ namespace fsi::solid {
 
 /// L at owned cell c from the solid alone:
 ///   min over L of sum_n w |u_n - u_c - (L + L_n) / 2 . d|^2,  w = 1 / |d|^2,
-/// over the vertex neighbours n with known(n), L in place of L_n where that is not inner(n): the
-/// rule of the middle, exact for a quadratic u on the way to an inner neighbour; and, with L, over
-/// the boundary faces f that have a velocity *u_at(f). In directions in which these do not spread,
-/// L_c as it is given. L, u: owned and halo; u[c] a velocity.
+/// over the vertex neighbours n with known(n), L in place of L_n where that is not inner(n). This
+/// is the rule of the middle, exact for a quadratic u on the way to an inner neighbour. The sum
+/// goes, with L, over the boundary faces f that have a velocity *u_at(f) too. In directions in
+/// which these do not spread, L_c stays as it is given. L, u: owned and halo; u[c] a velocity.
 template <class Velocity, class Known, class Inner, class BoundaryVelocity>
 Tensor one_sided_gradient(const CellField<Tensor>& L, const Velocity& u, const Known& known,
                           const Inner& inner, const BoundaryVelocity& u_at, const Mesh& mesh,

@@ -31,9 +31,9 @@ struct Viscosities {
   Real solid, fluid;
 };
 
-/// Puts in place of what the momentum equation has at faces at the surface (normal m) a viscous
-/// stress that is exact for a linear velocity with a kink a m, a . m = 0, at a plane surface. The
-/// traction along the surface is one, of viscosities in series:
+/// Replaces what the momentum equation has at faces at the surface, normal m. In its place comes a
+/// viscous stress that is exact for a linear velocity with a kink a m, a . m = 0, at a plane
+/// surface. The traction along the surface is one, of viscosities in series:
 ///
 ///   T = mu_s (2 D_s . m)_t + G (T . m)_t = mu_f (2 D_f . m)_t,   t: along the surface
 ///   T = mu_h ((2 D . m)_t + alpha_f G (T . m)_t / mu_s),   1 / mu_h = alpha_f / mu_s
@@ -51,8 +51,8 @@ struct Viscosities {
 /// difference times D of the solid's own side: nothing would tie the fluid to a solid without
 /// viscosity.
 ///
-/// Over the lesser viscosity, so that no flux is lost, the transposed gradient of uncut cells of
-/// the more viscous side becomes a sum of fluxes too, |mu_s - mu_f| L_f^T . S with L of that side:
+/// Over the lesser viscosity, the transposed gradient of uncut cells of the more viscous side
+/// becomes a sum of fluxes too, |mu_s - mu_f| L_f^T . S with L of that side. So no flux is lost:
 /// what one cell loses another gets. That of the other side is none.
 class SurfaceTraction {
  public:

@@ -20,16 +20,16 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 /// stress there and in what goes on with it around the solid. From a flow whose gradients are L and
 /// those of the cells inside, ElasticForce takes W T : L, from u
 ///   W T : M,   W (M - L) = sum_f w [alpha_f e (x) S_f + (alpha' - alpha_f) (e . S_f) n (x) n],
-///   e = u_N - u_P - L_f . d,   W = sum_f w alpha' d . S_f / dim,
-/// L_f the mean of L and that of an inner cell behind the face, else L, alpha' that of both cells,
-/// n the surface's normal, w the cell's part of the face's stress, 1 where the other cell goes on
-/// with it. Zero where no face has a part of it. alpha: of what is known.
+///   e = u_N - u_P - L_f . d,   W = sum_f w alpha' d . S_f / dim.
+/// L_f is the mean of L and that of an inner cell behind the face, else L. alpha' is that of both
+/// cells and n the surface's normal. w is the cell's part of the face's stress, 1 where the other
+/// cell goes on with it. M - L is zero where no face has a part of it. alpha: of what is known.
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 
-/// L - chi T,  chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|: gone is the part
-/// of L by which the cell would take up more energy than the force takes from the flow. A tenth of
-/// |T| |D|, the largest power of D, is left, since M is of first order there: so the strain of a
+/// L - chi T, chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|. Gone is the part of
+/// L by which the cell would take up more energy than the force takes from the flow. A tenth of |T|
+/// |D|, the largest power of D, is left, since M is of first order there. So the strain of a
 /// resolved slab is as exact as without the bound, and with twice as much waves grow on stiff
 /// triangles. With more than |D| what is at rest would follow the noise of u around it.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {

@@ -118,10 +118,10 @@ struct Body {
   Real elastic_number() const {
     return std::visit([](const auto& k) { return k.elastic_number; }, kinematics);
   }
-  /// The fraction that tells which cells know their strain. Where the flux takes part in it, that
-  /// in the middle of the solid's step, the time of the velocity: a cell that the surface reaches
-  /// in the second half has the fluid's, and its L an error of (Co / 2) times the jump. On
-  /// tetrahedra, cells at a wall do not.
+  /// The fraction that tells which cells know their strain. Where the flux takes part in it, it is
+  /// that in the middle of the solid's step, the time of the velocity. A cell that the surface
+  /// reaches in the second half has the fluid's velocity, and its L an error of (Co / 2) times the
+  /// jump. On tetrahedra, cells at a wall do not.
   const CellField<Real>& strain_fraction() const {
     return off_walls ? off_walls->alpha : strain_by_flux() ? alpha_mid : alpha;
   }

@@ -49,14 +49,14 @@ struct AdvectScratch {
   CellField<Real> share;     ///< of a cell's outflow changed by a round of redistribution
 };
 
-/// Collective. One step of isoAdvector [Roenby16]: through every face near the interface the volume
-/// swept by the upwind cell's plane, moving along its normal with the velocity at its centre, for a
-/// time dt; in a tetrahedron by the paraboloid about the plane, moved aside with this velocity for
-/// half of dt. Where cells would leave [0, 1] their outflow is raised (lowered) until they do not;
-/// the excess goes along with the flow, no volume is clipped. With a divergence-free phi the sum of
-/// alpha V is kept to round-off. The amount that div phi != 0 and fractions within 1e-12 of 0 or 1
-/// would add is given back to the cells of the interface, each in proportion to V alpha (1 -
-/// alpha). The sum stays, and full cells stay full.
+/// Collective. One step of isoAdvector [Roenby16]. Through every face near the interface goes the
+/// volume that the upwind cell's plane sweeps, moving along its normal with the velocity at its
+/// centre, for a time dt. In a tetrahedron it is the paraboloid about the plane that sweeps, moved
+/// aside with this velocity for half of dt. Where cells would leave [0, 1] their outflow is raised
+/// (lowered) until they do not: the excess goes along with the flow, and no volume is clipped. With
+/// a divergence-free phi the sum of alpha V is kept to round-off. The amount that div phi != 0 and
+/// fractions within 1e-12 of 0 or 1 would add is given back to the cells of the interface, each in
+/// proportion to V alpha (1 - alpha). The sum stays, and full cells stay full.
 /// Through boundary faces solid can leave; what enters there is fluid.
 /// alpha, u: owned and halo set; interface: of this alpha. Courant number (dt / 2V) sum |phi| <= 1.
 /// On return owned cells and halo of alpha are set.

@@ -15,10 +15,10 @@ namespace fsi::vof {
 /// from distance s0 to s1.
 Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Real s1);
 /// The same for a face of a tetrahedron and the paraboloid about the plane, its middle moved by
-/// `aside`: behind the plane shifted to where the paraboloid stands on the face, by
-///   (mean - <x . K . x>) / 2,  x = r - aside,
-/// < > over the line in which the plane cuts the face half-way between s0 and s1, and over the face
-/// as far as the plane sweeps all of it.
+/// `aside`. It is the part behind the plane shifted to where the paraboloid stands on the face, by
+///   (mean - <x . K . x>) / 2,  x = r - aside.
+/// The mean < > is over the line in which the plane cuts the face half-way between s0 and s1, and
+/// over the face as far as the plane sweeps all of it.
 Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, const Bend& bend,
                 const Vec3& aside, Real s0, Real s1);
 

@@ -26,8 +26,8 @@ struct Filled {
   /// of smooth parts, sum of sizes at sharp edges.
   Real estimated_error = 0;
   /// Least signed distance of the shape at corners and centres of boundary faces but those of
-  /// `mirrors`: how far the solid is from the boundary; negative where it sticks out of the mesh
-  /// and `volume` misses a part of it.
+  /// `mirrors`. It tells how far the solid is from the boundary, and is negative where it sticks
+  /// out of the mesh and `volume` misses a part of it.
   Real clearance = 0;
 };
 

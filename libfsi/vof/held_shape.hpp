@@ -32,17 +32,17 @@ struct HoldScratch {
 };
 
 /// Collective. Moves the fractions toward those of the solid whose surface is where the map puts
-/// it, {x : shape(xi(x)) < shift}: a material surface, which what carries alpha by the mean
-/// velocity of faces loses in the course of time. In a cell near it the surface is the plane
+/// it, {x : shape(xi(x)) < shift}. That is a material surface. What carries alpha by the mean
+/// velocity of faces loses it in the course of time. In a cell near it the surface is the plane
 ///
 ///   s + m . (x - x_c) = shift,   s = (shape(xi_c) + k h^2 / 24) / |g|,   m = g / |g|,
 ///   g = (I + grad d)^T . grad shape(xi_c)
 ///
-/// k = div grad shape the sum of the curvatures, which lie outside the plane by their mean over the
-/// cell. The change of a cell is at most a twentieth of it in a call, times its weight. shift makes
-/// the sum of alpha V what it was, to round-off; where none does to 1e-5 of it nothing is changed.
-/// alpha: owned and halo, before and after. Returns the volume that changed cells, in parts of the
-/// solid's; 0: nothing was held.
+/// k = div grad shape is the sum of the curvatures; k h^2 / 24 is what they add to the mean of
+/// shape over the cell. The change of a cell is at most a twentieth of it in a call, times its
+/// weight. shift makes the sum of alpha V what it was, to round-off; where none does to 1e-5 of it
+/// nothing is changed. alpha: owned and halo, before and after. Returns the volume that changed
+/// cells, in parts of the solid's; 0: nothing was held.
 Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                 HoldScratch& scratch);
 

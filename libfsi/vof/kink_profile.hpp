@@ -12,10 +12,11 @@ namespace fsi::vof {
 
 /// A velocity u + j max(0, s), s = n . (x - x_S) and u linear, bears a traction mu j n . S that the
 /// faces carry by the part of solid in the prism they sweep (face_fraction). That part is not the
-/// one of the line between the centres, so what balances in a cut cell is u + j phi,
+/// one of the line between the centres. So what balances in a cut cell is u + j phi,
 ///   sum_f g (phi_N - phi - (1 - alpha_f) n . d) = 0,    phi_N = max(0, s_N) beside it,
-/// by one step from the neighbours' exact values, alpha_f by the cell's own plane. It is max(0, s)
-/// where the plane lies along faces, elsewhere off by some hundredths of a cell to either side.
+/// One step from the neighbours' exact values gives phi, with alpha_f by the cell's own plane. It
+/// is max(0, s) where the plane lies along faces, elsewhere off by some hundredths of a cell to
+/// either side.
 class KinkProfile {
  public:
   /// mesh must outlive it.

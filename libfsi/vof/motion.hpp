@@ -22,10 +22,11 @@ struct Motion {
 /// Names of the motions that `motion` knows.
 const std::vector<std::string>& motion_names();
 
-/// vortex: stream function sin^2(pi x) sin^2(pi y) / pi, reversed by cos(pi t / T), T = 8
-///   [Scheufler19];
-/// deformation: [LeVeque96] (9.5) in the unit cube, reversed likewise, T = 3;
-/// rotation: one turn about (0.5, 0.5) in the x-y plane, T = 2 pi.
+/// - vortex: stream function sin^2(pi x) sin^2(pi y) / pi, reversed by cos(pi t / T), T = 8
+/// [Scheufler19].
+/// - deformation: [LeVeque96] (9.5) in the unit cube, reversed likewise, T = 3.
+/// - rotation: one turn about (0.5, 0.5) in the x-y plane, T = 2 pi.
+///
 /// Errors: Error{input} for any other name.
 Motion motion(const std::string& name);
 

@@ -49,8 +49,11 @@ class Mesh:
         return first[inverse.ravel()]
 
     def _shares(self):
-        """The weight of a cell at each of its corners, such that a linear field is met where the
-        weights can stay between 0 and 2 [Holmes89]; 1 where all cells are on one side, as at a wall."""
+        """The weight of a cell at each of its corners.
+
+        A linear field is met where the weights can stay between 0 and 2 [Holmes89]. They are 1 where all
+        cells are on one side, as at a wall.
+        """
         away = np.repeat(self.centres(), self.counts, axis=0) - self.points[self.corners]
         away = away[:, :self.dim]
         place, number = self.place[self.corners], len(self.points)

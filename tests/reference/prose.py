@@ -38,12 +38,12 @@ def blocks(text):
             lines.append(ITEM.sub("", line).strip())
 
 
-def sentences(text):
+def sentences(text, end=END):
     """(line where its block begins, sentence)."""
     for line, block in blocks(text):
         block = CODE.sub("Code", LINK.sub(r"\1", block))
         held = ""
-        for part in END.split(block):
+        for part in end.split(block):
             held = (held + " " + part).strip()
             if SHORT.search(held):
                 continue

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""The judges of the documents judged: sentences of a page, and links that lead nowhere."""
+"""The judges of the documents judged: sentences of a page and of comments, and links that lead nowhere."""
 import os
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import comments  # noqa: E402
 import links  # noqa: E402
 import prose  # noqa: E402
 
@@ -31,6 +32,39 @@ class Sentences(unittest.TestCase):
     def test_leave_code_out(self):
         self.assertEqual(counts("one\n\n```\ntwo three. Four\n```\n\nfive\n"), [1, 1])
         self.assertEqual(counts("one:\n\n    x = a b c\n\n    y\n\nfive `a b c d` six\n"), [1, 3])
+
+
+def comment_counts(text, language):
+    return [len(prose.words(sentence)) for _, sentence in comments.sentences(text, language)]
+
+
+class Comments(unittest.TestCase):
+    def test_of_cpp_go_on_over_lines(self):
+        text = '/// One two.\n/// phi is three\n/// four.\n///\n/// Five\nint i = 0;  // six\n'
+        self.assertEqual(comment_counts(text, "c++"), [2, 4, 1, 1])
+        self.assertEqual([line for line, _ in comments.sentences(text, "c++")], [1, 1, 5, 6])
+
+    def test_behind_code_stand_alone(self):
+        self.assertEqual(comment_counts("int i;  ///< one\nint j;  ///< two three\n", "c++"), [1, 2])
+        self.assertEqual(comment_counts("int i;  // one\n        // two\n        int j;  // three\n", "c++"), [2, 1])
+
+    def test_are_no_strings(self):
+        self.assertEqual(comment_counts('f("a // b");\ng("//", \'"\');  // one\n', "c++"), [1])
+
+    def test_count_a_formula_as_a_word(self):
+        self.assertEqual(comment_counts("/// It is\n///   a = b + c + d,\n/// with b\n", "c++"), [5])
+        self.assertEqual(comment_counts("/// It is\n///   a = b + c.\n/// With b\n", "c++"), [3, 2])
+        self.assertEqual(comment_counts("/// Where a . b is 0. alpha is one\n", "c++"), [5, 3])
+
+    def test_of_python(self):
+        text = '#!/usr/bin/python3\n"""One two.\n\n    code a b c\n\nThree"""\n# four\n# five.\ndef f():\n    "Six."\n'
+        self.assertEqual(comment_counts(text, "python"), [2, 1, 2, 1])
+
+    def test_of_other_files_are_not_read(self):
+        self.assertEqual(comments.language("a/run", "#!/usr/bin/python3\n"), "python")
+        self.assertEqual(comments.language("a/b.hpp", ""), "c++")
+        for name, text in (("run", "#!/usr/bin/env bash\n"), ("a.md", ""), ("CMakeLists.txt", "")):
+            self.assertIsNone(comments.language(name, text))
 
 
 class Links(unittest.TestCase):

@@ -24,12 +24,12 @@ struct Response {
 
 /// With W and its derivatives by I1 = tr B and I2 = tr B^-1                 [Ogden97] 4.3, 6.2
 ///   T = 2 W_1 B - 2 W_2 B^-1
-/// and, of waves along n that move along m, m . n = 0,
+/// and, for waves along n that move along m, m . n = 0,
 ///   rho c^2 = 2 W_1 n.B.n + 2 W_2 m.B^-1.m
-///             + 4 W_11 (m.B.n)^2 - 8 W_12 (m.B.n) (m.B^-1.n) + 4 W_22 (m.B^-1.n)^2,
-/// the second derivative of W by e in F -> (I + e m (x) n) F. The modulus is its largest value with
-/// m and n in the plane of the largest and the smallest stretch: of all where W_11, W_12 and W_22
-/// are 0 or more and the solid is stiffest there.
+///             + 4 W_11 (m.B.n)^2 - 8 W_12 (m.B.n) (m.B^-1.n) + 4 W_22 (m.B^-1.n)^2.
+/// This is the second derivative of W by e in F -> (I + e m (x) n) F. The modulus is its largest
+/// value with m and n in the plane of the largest and the smallest stretch. It is the largest of
+/// all where W_11, W_12 and W_22 are 0 or more and the solid is stiffest there.
 Response response(const Jet& W, const SymTensor& B);
 
 /// B^(1/2); eigenvalues below 1e-6 count as that.
