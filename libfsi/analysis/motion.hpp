@@ -27,9 +27,9 @@ struct Motion {
 /// alpha V, (22), over owned cells, each at its image nearest to the solid. The solid must be
 /// shorter than half a period, and move by less than that between calls. Without any solid the
 /// centroid stays and the velocity is zero. On return `tracker` stands at the new centroid.
-/// ahead: the time of u less that of alpha. The solid has gone on by u_c ahead when it has u, and
-/// the velocity is that at its new place, u_c + ahead sum alpha V (L . u_c) / sum alpha V: without
-/// this term a solid that turns while it moves seems to move aside.
+/// ahead: the time of u less that of alpha. The solid has gone on by u_c ahead when it has u. The
+/// velocity is that at its new place, u_c + ahead sum alpha V (L . u_c) / sum alpha V. Without this
+/// term a solid that turns while it moves seems to move aside.
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
               const Mesh& mesh, Real ahead = 0);
 

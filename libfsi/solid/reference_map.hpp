@@ -27,8 +27,8 @@ class ReferenceMap {
  public:
   /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
   /// Beside psi it is carried along the surface by the velocity that strains psi, so that both stay
-  /// alike; a cell in which it has lost its volume is fitted to those around it, as where the solid
-  /// is new.
+  /// alike. A cell in which it has lost its volume is then fitted to those around it, as where the
+  /// solid is new.
   enum class Role { alone, beside_psi };
   /// Collective. walls: the patches that hold the velocity; used beside psi. mesh must outlive it.
   explicit ReferenceMap(const Mesh& mesh, Role role = Role::alone,
