@@ -105,6 +105,8 @@ def build(run, snapshot, look):
         bars.append(speed)
     if "slice" in look.parts:
         layers.append(_slice(snapshot, look, about, box, speed))
+        if body is not None and len(body.points) and "body" in look.parts:
+            set_behind(layers, body, look, camera)
     if "streamlines" in look.parts:
         layers.append(_streamlines(snapshot, look, about, box, camera, speed))
     if body is not None and len(body.points) and "body" in look.parts:
@@ -123,6 +125,19 @@ def _slice(snapshot, look, about, box, speed):
     cut = cuts.cut(snapshot, look.normal, None if about is None else about[axis])
     plane = within(surfaces.Surface(cut.points, cut.triangles, {"speed": cut["speed"]}), box, snapshot.mesh)
     return scene.painted(plane, speed(plane.values["speed"]), lit=False)
+
+
+def set_behind(layers, body, look, camera):
+    """Moves the slice, the last layer, and what is behind it away from the eye until it is behind all of the body.
+
+    A parallel projection shows them where they were, and they hide nothing of the body.
+    """
+    axis, away = cuts.AXES.index(look.normal), camera.axes()[2]
+    place = layers[-1].points[:1, axis]
+    depth = ((place - body.points[:, axis]) / away[axis]).max(initial=0)
+    for layer in layers:
+        back = (layer.points[:, axis] - place) / away[axis] < 1e-9 * camera.width
+        layer.points = layer.points - np.where(back, 1.01 * depth, 0)[:, None] * away
 
 
 def _streamlines(snapshot, look, about, box, camera, speed, count=24):

@@ -73,6 +73,7 @@ def check_views(run):
               f"{renderer}: wall, slice, streamlines, body and vortices, with two bars")
         body = layers[3]
         check(np.ptp(body.points[:, 0]) < 0.55, f"{renderer}: the body is in one piece")
+        check(body.points[:, 2].min() > layers[1].points[:, 2].max(), f"{renderer}: all of it is before the slice")
         middle = 0.5 * (body.points.min(axis=0) + body.points.max(axis=0))
         check(np.linalg.norm((middle - camera.middle) @ camera.axes()[0]) < 0.02, "the camera follows it")
         path = style.save(views.view(run, 0, look, 2), os.path.join(folder, renderer + ".png"), 2)
