@@ -243,9 +243,11 @@ std::vector<std::string> Options::list(const std::string& name, const std::strin
   const auto text = raw(name);
   std::vector<std::string> items = text ? split(*text) : std::vector<std::string>{};
   require(!text || !items.empty(), "option -" + name + " needs a value: " + help);
+  // The word that -help has for an empty list.
+  if (items == std::vector<std::string>{"none"}) items.clear();
   for (const std::string& item : items)
     require(!item.empty(), "option -" + name + ": \"" + *text + "\" has an empty item");
-  record({name, text.value_or(""), "", help, "a list: a,b,..."});
+  record({name, items.empty() ? "" : *text, "", help, "a list: a,b,..."});
   return items;
 }
 

@@ -46,7 +46,7 @@ class Options {
                      const std::vector<std::string>& valid, const std::string& help);
   /// Three numbers, x,y,z.
   Vec3 vec3(const std::string& name, const Vec3& fallback, const Spec& spec);
-  /// Words with commas between them; none where the option is not given.
+  /// Words with commas between them; none where the option is not given or the word is "none".
   std::vector<std::string> list(const std::string& name, const std::string& help);
   /// Whether the user gave this option.
   bool given(const std::string& name) const;

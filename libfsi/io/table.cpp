@@ -42,8 +42,21 @@ Table::Table(const std::string& file, std::vector<std::string> columns, Real res
     throw Error(ErrorKind::io, "file \"" + file + "\" could not be written: " + reason);
 }
 
+/// As rank 0 has it: its values are written.
+void Table::require_columns(std::size_t count) const {
+  std::string wrong;
+  if (count != columns_.size()) {
+    wrong = "a row of \"" + file_ + "\" has " + std::to_string(count) + " values for the " +
+            std::to_string(columns_.size()) + " columns ";
+    for (const std::string& column : columns_)
+      wrong += (&column == &columns_.front() ? "" : ", ") + column;
+  }
+  wrong = broadcast(wrong);
+  if (!wrong.empty()) throw Error(ErrorKind::internal, wrong);
+}
+
 void Table::row(std::span<const Real> values) {
-  FSI_ASSERT(values.size() == columns_.size());
+  require_columns(values.size());
   std::string line, culprit;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) culprit = columns_[i];

@@ -23,10 +23,12 @@ class Table {
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);
 
   /// Collective; rank 0's values are written. Errors: Error{numerics} naming the column of a value
-  /// that is not finite; nothing is then written. Error{io}; the rows before it stay whole.
+  /// that is not finite, Error{internal} where there are more or fewer values than columns; nothing
+  /// is then written. Error{io}; the rows before it stay whole.
   void row(std::span<const Real> values);
 
  private:
+  void require_columns(std::size_t count) const;
   std::string file_;
   std::vector<std::string> columns_;
   std::ofstream stream_;

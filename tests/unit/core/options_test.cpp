@@ -46,6 +46,18 @@ TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
   FSI_PETSC(PetscOptionsClear(nullptr));
 }
 
+TEST(Options, NoneIsAnEmptyListAsHelpHasIt) {
+  const auto read = [](Options& options) {
+    EXPECT_TRUE(options.list("l", "").empty());
+    EXPECT_EQ(options.yaml().find("\nl:"), std::string::npos);
+  };
+  EXPECT_EQ(sentence("-l none", read), "");
+  const auto with_others = [](Options& options) {
+    EXPECT_EQ(options.list("l", ""), (std::vector<std::string>{"none", "in"}));
+  };
+  EXPECT_EQ(sentence("-l none,in", with_others), "");
+}
+
 TEST(Options, WithoutAFallbackMustBeGiven) {
   const auto read = [](Options& options) {
     const Real given = options.real("capacitance", std::numeric_limits<Real>::quiet_NaN(),

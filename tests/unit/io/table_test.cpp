@@ -81,6 +81,22 @@ TEST(Table, WhatIsNotFiniteIsNotWritten) {
   EXPECT_EQ(content(folder / "a.csv"), "t,x\n");
 }
 
+TEST(Table, ARowHasAValueForEachColumn) {
+  const Folder folder;
+  Table table(folder / "a.csv", {"t", "x"});
+  for (const std::size_t count : {1, 3}) {
+    try {
+      table.row(std::vector<Real>(count, 0));
+      ADD_FAILURE() << "written";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::internal);
+      EXPECT_EQ(error.what(), "a row of \"" + (folder / "a.csv") + "\" has " +
+                                  std::to_string(count) + " values for the 2 columns t, x");
+    }
+  }
+  EXPECT_EQ(content(folder / "a.csv"), "t,x\n");
+}
+
 TEST(Table, AMissingFolderIsAnError) {
   const Folder folder;
   try {
