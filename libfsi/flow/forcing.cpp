@@ -4,6 +4,13 @@
 
 namespace fsi::flow {
 
+Real mean_velocity(const FaceField<Real>& phi, const Vec3& axis, const Mesh& mesh) {
+  Sum sum;  // every face once: by the rank of its owner
+  for (Index f = 0; f < mesh.n_faces; ++f)
+    if (mesh.owner[f] < mesh.n_owned) sum.add(phi[f] * dot(mesh.d[f], axis));
+  return sum.total() / mesh.total_volume;
+}
+
 Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity)
     : mesh_(mesh),
       axis_(axis / norm(axis)),
@@ -29,13 +36,6 @@ void Forcing::renew(Projection& projection, const Density& density, Real absolut
   for (Index c = 0; c < mesh_.n_cells; ++c)
     u_1_[c] = density.rho_0() * density.divided(axis_, c) - u_1_[c];
   mean_1_ = mean(phi_1_);
-}
-
-Real Forcing::mean(const FaceField<Real>& phi) const {
-  Sum sum;  // every face once: by the rank of its owner
-  for (Index f = 0; f < mesh_.n_internal; ++f)
-    if (mesh_.owner[f] < mesh_.n_owned) sum.add(phi[f] * dot(mesh_.d[f], axis_));
-  return sum.total() / mesh_.total_volume;
 }
 
 void Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt) {

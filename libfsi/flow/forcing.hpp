@@ -6,12 +6,15 @@
 
 namespace fsi::flow {
 
+/// Collective. Volume mean of the velocity along a unit vector `axis`, from the flux:
+///   (1/V) sum_f phi_f d_f . axis,   sum over all faces of the mesh; exact where div u = 0.
+Real mean_velocity(const FaceField<Real>& phi, const Vec3& axis, const Mesh& mesh);
+
 /// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
 /// divergence-free, so adding a multiple of it keeps div u = 0:
 ///   c = (U - mean(phi)) / mean(phi_1),   phi += c phi_1,   u += c u_1,   S += rho c / dt,
-/// where mean(phi) = (1/V) sum_f phi_f d_f . axis is the volume mean of u. axis of a
-/// divergence-free flux: the same through every section, so nothing happens when a particle crosses
-/// the seam.
+/// with the mean above: of a divergence-free flux it is the same through every section, so nothing
+/// happens when a particle crosses the seam.
 class Forcing {
  public:
   /// Collective. Projects a uniform force along the axis once.
@@ -22,15 +25,12 @@ class Forcing {
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
   void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt);
-  /// mean(phi); collective.
-  Real mean(const FaceField<Real>& phi) const;
 
   /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.
   Real gradient = 0;
-  /// Direction of the mean velocity.
-  Vec3 axis() const { return axis_; }
 
  private:
+  Real mean(const FaceField<Real>& phi) const { return mean_velocity(phi, axis_, mesh_); }
   const Mesh& mesh_;
   Vec3 axis_;
   Real target_;

@@ -57,7 +57,7 @@ void Solver::balance_weight(State& state) {
       if (largest <= round_off * first) break;
     }
   }
-  const Vec3 uniform = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{};
+  const Vec3 uniform = driving_gradient() * axis_;
   for (Index c = 0; c < mesh_.n_cells; ++c) heavy_->force[c] = force_[c] + uniform - grad_p_[c];
 }
 

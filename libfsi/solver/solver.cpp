@@ -27,6 +27,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
     : mesh_(mesh),
       physics_(physics),
       conditions_(resolve(setup.conditions, mesh)),
+      axis_(setup.axis / norm(setup.axis)),
       driving_force_(setup.body_force),
       weights_(mesh),
       state_(mesh),
@@ -54,7 +55,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
-  if (setup.mean_velocity) forcing_.emplace(mesh, projection_, setup.axis, *setup.mean_velocity);
+  if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
   cells_norm_ = std::sqrt(squares.total());
@@ -155,7 +156,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
       .stiff = modes_.stiff,
       .force = force_,
       .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
-      .body = forcing_ ? forcing_->gradient * forcing_->axis() : Vec3{}};
+      .body = driving_gradient() * axis_};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 

@@ -168,10 +168,10 @@ class Solver {
   const CellField<Tensor>& velocity_gradient();
   /// Driving pressure gradient S; zero without a mean velocity.
   Real driving_gradient() const { return forcing_ ? forcing_->gradient : 0; }
-  /// Of the mean velocity.
-  Vec3 axis() const { return forcing_ ? forcing_->axis() : Vec3{1, 0, 0}; }
+  /// Of the mean velocity, a unit vector.
+  Vec3 axis() const { return axis_; }
   /// Volume mean of the velocity along the axis; collective.
-  Real mean_velocity() const { return forcing_ ? forcing_->mean(state_.phi) : 0; }
+  Real mean_velocity() const { return flow::mean_velocity(state_.phi, axis_, mesh_); }
 
  private:
   /// Whether some body's interface is at another time than the flow.
@@ -265,6 +265,7 @@ class Solver {
   const Mesh& mesh_;
   Physics physics_;
   std::vector<Condition> conditions_;
+  Vec3 axis_;
   std::function<Vec3(const Vec3&, Real)> driving_force_;
   FaceWeights weights_;
   State state_;

@@ -19,7 +19,7 @@ TEST(Forcing, HoldsTheMean) {
   FaceField<Real> phi(mesh);
   const Real rho = 2, dt = 0.1;
   forcing.hold(u, phi, rho, dt);
-  EXPECT_NEAR(forcing.mean(phi), 1.5, 1e-14);
+  EXPECT_NEAR(mean_velocity(phi, {1, 0, 0}, mesh), 1.5, 1e-14);
   EXPECT_NEAR(forcing.gradient, rho * 1.5 / dt, 1e-11);  // what takes rest there in a step
   Real worst = 0;
   for (Index c = 0; c < mesh.n_cells; ++c) worst = std::max(worst, norm(u[c] - Vec3{1.5, 0, 0}));
@@ -28,6 +28,17 @@ TEST(Forcing, HoldsTheMean) {
   const Real before = forcing.gradient;
   forcing.hold(u, phi, rho, dt);
   EXPECT_NEAR(forcing.gradient, before, 1e-12);
+}
+
+TEST(Forcing, TheMeanIsThatOfTheVelocityOnAnyMesh) {
+  const Vec3 u{1, 0.5, 0};
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {5, 4, 0}, .length = {2, 1, 1}, .simplex = simplex});
+    FaceField<Real> phi(mesh);
+    for (Index f = 0; f < mesh.n_faces; ++f) phi[f] = dot(u, mesh.Sf[f]);
+    EXPECT_NEAR(mean_velocity(phi, {1, 0, 0}, mesh), 1, 1e-14);
+    EXPECT_NEAR(mean_velocity(phi, {0, 1, 0}, mesh), 0.5, 1e-14);
+  }
 }
 
 }  // namespace
