@@ -28,12 +28,14 @@ void put_text(const std::string& directory, const std::string& text) {
 
 }  // namespace
 
-Output::Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver)
+Output::Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver,
+               std::vector<Column> columns)
     : case_(setup),
       options_(options),
       solver_(solver),
       driver_(driver),
       simulated_(simulated(options)),
+      columns_(std::move(columns)),
       lock_(io::make_directory(setup.output.directory)),
       checkpoints_(setup.output.directory, solver.mesh()),
       energy_(solver),
@@ -153,7 +155,11 @@ void Output::open_tables() {
   const Real t_row = restart ? std::max(t, samples_.last(t)) : t;
   const std::vector<SolidRecord> before = records_;
   std::vector<Row> first = rows({}, 0, 0);
-  flow_.emplace(directory + "/flow.csv", names(first[0].entries), t_row);
+  const std::vector<std::string> of_flow = names(first[0].entries);
+  for (const Column& column : columns_)
+    require(std::ranges::count(of_flow, column.name) == 1,
+            "flow.csv would have two columns \"" + column.name + "\": rename that of the driver");
+  flow_.emplace(directory + "/flow.csv", of_flow, t_row);
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const std::string& name = solver_.bodies()[i].name;
     auto& table = solids_.emplace_back();
@@ -237,6 +243,8 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
   all[0].entries.push_back({"work", energy_.work()});
   all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
+  for (const Column& column : columns_)
+    all[0].entries.push_back({column.name, column.value(solver_), column.course});
   if (s.step == 0)
     for (Entry& entry : all[0].entries)
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();

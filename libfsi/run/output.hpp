@@ -22,6 +22,13 @@
 
 namespace fsi {
 
+/// A column of flow.csv that a driver adds.
+struct Column {
+  std::string name;                    ///< none that is there already
+  std::function<Real(Solver&)> value;  ///< at the state's time; collective, the same on all ranks
+  Course course = Course::smooth;      ///< how it runs between two steps
+};
+
 /// Watches a Solver and writes the files of a run. Invariant: from construction on, summary.json
 /// says how the run stands; it reads "failed" until finish().
 class Output {
@@ -31,7 +38,9 @@ class Output {
   /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
   /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
   /// directory, there is nothing to go on from, or it is of another driver or kinematics.
-  Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver);
+  /// columns: of flow.csv behind its own, taken at the start and after steps that a row is near.
+  Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver,
+         std::vector<Column> columns = {});
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -72,6 +81,7 @@ class Output {
   const Options& options_;
   Solver& solver_;
   std::string driver_, simulated_;
+  std::vector<Column> columns_;  // of the driver
   io::Lock lock_;
   io::Checkpoint checkpoints_;
   EnergyBalance energy_;
