@@ -41,20 +41,20 @@ struct FluxTerms {
 ///   U(u)_f = lambda u_P + (1 - lambda) u_N (+ L_f . (x_f - x_m) for u*),
 ///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G alpha_f lambda_B) / |d|^2).
 /// Each cell has the weight of its own part of the way, x_m = x_P + (1 - lambda) d. Then the sum
-/// over faces of U . S and the pressure's gradient are adjoint but for the skewness, and with d_f =
-/// dt and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A the Laplacian of the
-/// compact gradients, M of the averaged ones: between 0 and 2 A on any mesh, so nothing grows
+/// over faces of U . S and the pressure's gradient are adjoint but for the skewness. With d_f = dt
+/// and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A the Laplacian of the compact
+/// gradients, M of the averaged ones. M is between 0 and 2 A on any mesh, so nothing grows
 /// [Trias14]. The brace compares the compact with the averaged gradient of p and of the elastic
-/// normal stress; it vanishes for linear fields.
-/// The last part of d_f where the flux strains the solid: an elastic normal stress that alternates
-/// from cell to cell makes a flux whose strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a
-/// step, no more than all of it. t_f = dt, but where elastic stress acts not more than 0.02 |d| /
-/// |u_f|, gradually from none of c_f to 1e-7 of the stress: the jump at the surface of a solid
-/// would else leak through it with a flux in proportion to dt. With a density rho is that of the
-/// face, and what the cells make of all forces is taken out for what the face makes of them
-/// (flow/density.hpp). Where everything moves with one acceleration U(u*) is right already, and
-/// this with the brace is zero. Boundary: prescribed velocity, or
-/// the same with p_b at openings. On return every face of phi is set. u: owned and halo.
+/// normal stress; it vanishes for linear fields. The last part of d_f stands where the flux strains
+/// the solid. There an elastic normal stress that alternates from cell to cell makes a flux whose
+/// strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a step, no more than all of it. t_f = dt,
+/// but where elastic stress acts not more than 0.02 |d| / |u_f|, gradually from none of c_f to 1e-7
+/// of the stress. Else the jump at the surface of a solid would leak through it with a flux in
+/// proportion to dt. With a density rho is that of the face, and what the cells make of all forces
+/// is taken out for what the face makes of them (flow/density.hpp). Where everything moves with one
+/// acceleration U(u*) is right already, and this with the brace is zero. Boundary: prescribed
+/// velocity, or the same with p_b at openings. On return every face of phi is set. u: owned and
+/// halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
@@ -124,9 +124,9 @@ class Projection {
   std::optional<FaceMatrix> matrix_;  // with a density
 };
 
-/// phi_f = (rho_0 / rho_f) { U(force) . S + g c_f - (g (p_N - p_P) + k . (grad p)_f) }: the flux
-/// that forces and pressure make in a unit of time out of rest, times rho_0; 0 where the velocity
-/// is given. terms: p, its gradients, p_b, c_f, density and force are read.
+/// phi_f = (rho_0 / rho_f) { U(force) . S + g c_f - (g (p_N - p_P) + k . (grad p)_f) }. This is the
+/// flux that forces and pressure make in a unit of time out of rest, times rho_0. It is 0 where the
+/// velocity is given. terms: p, its gradients, p_b, c_f, density and force are read.
 void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
 

@@ -11,11 +11,12 @@
 
 namespace fsi::solid {
 
-/// d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
-/// on the cells that the solid fills by half or more (in the middle of the step, as the solver has
-/// it; what it does to a speck the extension undoes), with face values by Koren's limiter, Heun's
-/// method over dt, or parts of it (strain.hpp), with phi and L frozen, then det B = 1 and the
-/// extension into the cells around. B = exp(psi) is positive definite whatever happens. Second
+/// The strain by its logarithm,
+///   d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
+/// on the cells that the solid fills by half or more, in the middle of the step, as the solver has
+/// it. What it does to a speck the extension undoes. Face values are by Koren's limiter. Heun's
+/// method goes over dt, or parts of it (strain.hpp), with phi and L frozen. Then come det B = 1 and
+/// the extension into the cells around. B = exp(psi) is positive definite whatever happens. Second
 /// order in space, and in time: a step takes it from half a step behind the flow to half one ahead.
 class LogConformation {
  public:
@@ -71,9 +72,9 @@ class LogConformation {
 
  private:
   /// Sets L_: snapshot.strain, or the velocity gradient without the divergence of the cell
-  /// velocities (solenoidal.hpp), in the solid's outermost cells that of its own side
-  /// (one_sided.hpp), by which they take up no more energy over dt than the force takes from the
-  /// flow (work_bound.hpp).
+  /// velocities (solenoidal.hpp). In the solid's outermost cells it is that of its own side
+  /// (one_sided.hpp). By it they take up no more energy over dt than the force takes from the flow
+  /// (work_bound.hpp).
   void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);

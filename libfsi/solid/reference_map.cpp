@@ -162,7 +162,7 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
     // in the middle of the step, r_f = x_f - x_c. The sum carries xi with (1/V) sum_f phi_f r_f. In
     // a linear u, off = sum_f ((L . r_f) . S_f) r_f of it is wrong where a cell is not symmetric
     // about its centre. Beside psi and at the surface, a flux that leads out of the known cells is
-    // that of solid and fluid: phi_f = (w + L . r_f) . S_f there, with w of `velocity_of_fluxes`
+    // that of solid and fluid. There phi_f = (w + L . r_f) . S_f, with w of `velocity_of_fluxes`
     // and L of the known cells beside c. Along the surface, n its normal, the map moves with w, by
     // which psi is strained. In a film of a cell at a wall the fluxes alone know what can pass: the
     // wall holds the cells' velocity on one side, and a map carried by it is held there, too.

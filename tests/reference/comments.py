@@ -12,6 +12,7 @@ import prose
 
 STRING = re.compile(r"""R"\(.*?\)"|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'""")
 FORMULA = re.compile(r"^ {2,}\S.*?(?=\.?$)")
+ABSOLUTE = re.compile(r"^(?=[|#])")  # |u| at the head of a line begins no table, and #include no heading
 # A symbol may begin a sentence, in lower case; the blank before the dot of a . b tells it from a stop.
 END = re.compile(r"(?<=[^\s.][.!?])[)\"*_`]*\s+(?=\S)")
 
@@ -58,7 +59,7 @@ def paragraphs(lines):
             start, column = number, at
         last = number
         if comment.strip():
-            held.append(FORMULA.sub("Formula", comment))
+            held.append(ABSOLUTE.sub("'", FORMULA.sub("Formula", comment)))
     if held:
         yield start, "\n".join(held)
 

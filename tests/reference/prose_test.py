@@ -54,6 +54,7 @@ class Comments(unittest.TestCase):
     def test_count_a_formula_as_a_word(self):
         self.assertEqual(comment_counts("/// It is\n///   a = b + c + d,\n/// with b\n", "c++"), [5])
         self.assertEqual(comment_counts("/// It is\n///   a = b + c.\n/// With b\n", "c++"), [3, 2])
+        self.assertEqual(comment_counts("/// Where\n/// |u| is 0\n", "c++"), [4])
         self.assertEqual(comment_counts("/// Where a . b is 0. alpha is one\n", "c++"), [5, 3])
 
     def test_of_python(self):
