@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 STAND_INS = {
-    "dpkg-query": "echo not-installed",
-    "apt-get": 'for i in $(seq 300); do echo "Setting up package $i"; done; [ ! -e "$BROKEN" ]',
+    "dpkg-query": 'case " $MISSING " in *" all "* | *" $4 "*) echo not-installed ;; *) echo installed ;; esac',
+    "apt-get": 'for i in $(seq 300); do echo "Setting up package $i"; done; echo "$*" >>"$CALLS"; '
+               'case "$*" in *$UNKNOWN*) exit 100 ;; esac; [ ! -e "$BROKEN" ]',
     "sudo": 'exec "$@"',
 }
 failures = []
@@ -19,11 +20,37 @@ def check(holds, sentence):
         failures.append(sentence)
 
 
-def set_up(folder, broken=""):
+def set_up(folder, broken="", missing="all", unknown="none", **more):
+    """The set-up where `missing` is not installed, apt-get fails or does not know one package; `calls` of apt-get."""
+    calls = os.path.join(folder, "calls")
+    with open(calls, "w", encoding="utf-8"):
+        pass
     environment = {**os.environ, "PATH": os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"],
-                   "BROKEN": broken or os.path.join(folder, "none")}
-    return subprocess.run(["bash", "-c", f"source {folder}/.ci/setup && echo set up"], env=environment,
+                   "BROKEN": broken or os.path.join(folder, "none"), "MISSING": missing, "UNKNOWN": unknown,
+                   "CALLS": calls, **more}
+    said = subprocess.run(["bash", "-c", f"source {folder}/.ci/setup && echo set up"], env=environment,
                           capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    with open(calls, encoding="utf-8") as file:
+        said.calls = file.read().splitlines()
+    return said
+
+
+def check_wishes(folder):
+    """VTK for the examples: installed with the rest, and done without where that cannot be."""
+    said = set_up(folder, FSI_FOR="examples")
+    check(said.returncode == 0 and "python3-vtk9 xvfb" in said.stdout and "libgtest-dev" not in said.stdout and
+          len(said.calls) == 2, f"with the rest, at once, and without the tests' packages: {said.stdout}{said.calls}")
+    check("python3-vtk9" not in set_up(folder).stdout, "the tests do not ask for it")
+    said = set_up(folder, missing="", FSI_FOR="examples")
+    check(said.returncode == 0 and said.stdout == "set up\n" and not said.calls, "no network where nothing is missing")
+    said = set_up(folder, unknown="python3-vtk9", FSI_FOR="examples")
+    check(said.returncode == 0 and "done without: python3-vtk9 xvfb" in said.stdout and "set up" in said.stdout,
+          f"goes on where it is not to be had: {said.stdout}{said.stderr}")
+    said = set_up(folder, broken=folder, missing="xvfb", FSI_FOR="examples")
+    check(said.returncode == 0 and "done without: xvfb" in said.stdout and len(said.calls) == 1,
+          f"goes on where it alone is missing, without a network: {said.stdout}{said.calls}")
+    said = set_up(folder, missing="xvfb", FSI_FOR="examples", FSI_WISHES="")
+    check(said.returncode == 0 and not said.calls, "FSI_WISHES= leaves it out")
 
 
 def main():
@@ -46,6 +73,7 @@ def main():
     said = set_up(folder, broken=folder)
     check(said.returncode != 0 and "set up" not in said.stdout and "Setting up package 300" in said.stderr and
           said.stderr.count("\n") <= 41, "where it fails, its last lines are shown and the set-up ends")
+    check_wishes(folder)
     return 1 if failures else 0
 
 
