@@ -12,9 +12,9 @@ Real mean_velocity(const FaceField<Real>& phi, const Vec3& axis, const Mesh& mes
 
 /// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
 /// divergence-free, so adding a multiple of it keeps div u = 0:
-///   c = (U - mean(phi)) / mean(phi_1),   phi += c phi_1,   u += c u_1,   S += rho c / dt,
-/// with the mean above: of a divergence-free flux it is the same through every section, so nothing
-/// happens when a particle crosses the seam.
+///   c = (U - mean(phi)) / mean(phi_1),   phi += c phi_1,   u += c u_1,   S += rho c / dt.
+/// The mean is that above. Of a divergence-free flux it is the same through every section, so
+/// nothing happens when a particle crosses the seam.
 class Forcing {
  public:
   /// Collective. Projects a uniform force along the axis once.
