@@ -131,6 +131,7 @@ void Projection::set_face_gradient(const CellField<Real>& q, const BoundaryField
 
 void Projection::set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
                               const BoundaryField<Real>& p_b) {
+  if (orthogonal_) return orthogonal_->set_gradient(grad, p);
   set_face_gradient(p, p_b);
   pressure_gradient(grad, grad_f_, p, p_b, stencil_.cells, mesh_);
 }
@@ -191,6 +192,7 @@ void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
 SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
                                 const BoundaryField<Real>& q_b, Real absolute) {
   balance_boundary(phi);
+  if (orthogonal_) return project_cells(phi, q, grad_q, q_b, absolute);
   // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
   // sine of the angle: two digits are enough there.
   constexpr Real loosened = 1e4, two_densities = 1e-2;
@@ -212,6 +214,27 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   if (density_ != nullptr)
     for (Index c = 0; c < mesh_.n_cells; ++c)
       grad_q[c] = density_->rho_0() * density_->divided(grad_q[c], c);
+  return total;
+}
+
+void Projection::make_orthogonal(const GradientStencil& stencil,
+                                 const std::vector<Condition>& conditions) {
+  orthogonal_.emplace(mesh_, stencil, conditions);
+  rest_.emplace(mesh_);
+}
+
+// phi = phi* - U(G q) - g (r_N - r_P), A r = D (phi* - U(G q)): q moves cells and faces alike, r
+// the faces alone, by the tenth that is left.
+SolveResult Projection::project_cells(FaceField<Real>& phi, CellField<Real>& q,
+                                      CellField<Vec3>& grad_q, const BoundaryField<Real>& q_b,
+                                      Real absolute) {
+  const int iterations = orthogonal_->project(phi, q, grad_q, system_, absolute);
+  std::ranges::fill(grad_f_, Vec3{});
+  set_outflow(phi, q_b);
+  rest_->fill(0);
+  SolveResult total = system_.solve(*rest_, b_, absolute, 1 / Orthogonal::tolerance);
+  total.iterations += iterations;
+  subtract_gradient(phi, *rest_, q_b);
   return total;
 }
 

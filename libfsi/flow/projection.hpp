@@ -7,6 +7,7 @@
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/flow/density.hpp"
+#include "libfsi/flow/orthogonal.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/operators/linear_system.hpp"
@@ -80,6 +81,13 @@ class Projection {
   SolveResult project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
                       const BoundaryField<Real>& q_b, Real absolute);
 
+  /// Collective. From now on first projects the cells' own velocities, and the compact gradients
+  /// take what of the divergence that leaves; the pressure gradient is the adjoint
+  /// (orthogonal.hpp). phi* must be what U makes of u* alone. stencil: of the velocity's gradient.
+  void make_orthogonal(const GradientStencil& stencil, const std::vector<Condition>& conditions);
+  /// Whether it does.
+  bool orthogonal() const { return orthogonal_.has_value(); }
+
   /// Collective. Takes that density from now on, until it is renewed. It must outlive this.
   void set_density(const Density& density);
 
@@ -95,6 +103,8 @@ class Projection {
   bool open() const { return open_; }
 
  private:
+  SolveResult project_cells(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
+                            const BoundaryField<Real>& q_b, Real absolute);
   void set_face_gradient(const CellField<Real>& q, const BoundaryField<Real>& q_b);
   void set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b);
   void subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
@@ -122,6 +132,8 @@ class Projection {
   std::vector<Real> b_;
   LinearSystem system_;
   std::optional<FaceMatrix> matrix_;  // with a density
+  std::optional<Orthogonal> orthogonal_;
+  std::optional<CellField<Real>> rest_;  // the potential of what `orthogonal_` leaves
 };
 
 /// phi_f = (rho_0 / rho_f) { U(force) . S + g c_f - (g (p_N - p_P) + k . (grad p)_f) }. This is the

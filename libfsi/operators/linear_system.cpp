@@ -221,4 +221,18 @@ SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real abso
   return result;
 }
 
+void LinearSystem::precondition(CellField<Real>& x, std::span<Real> b) {
+  Handles& h = *handles_;
+  PC pc = nullptr;
+  FSI_PETSC(KSPSetUp(h.solver));
+  FSI_PETSC(KSPGetPC(h.solver, &pc));
+  FSI_PETSC(VecPlaceArray(h.x, x.data()));
+  FSI_PETSC(VecPlaceArray(h.b, b.data()));
+  FSI_PETSC(PCApply(pc, h.b, h.x));
+  if (h.constant != nullptr) FSI_PETSC(MatNullSpaceRemove(h.constant, h.x));
+  FSI_PETSC(VecResetArray(h.x));
+  FSI_PETSC(VecResetArray(h.b));
+  h.mesh.halo.update(x);
+}
+
 }  // namespace fsi

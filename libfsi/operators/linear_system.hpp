@@ -56,6 +56,9 @@ class LinearSystem {
   /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.
   /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
   SolveResult solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0, Real loosened = 1);
+  /// Collective, after `assemble`. x = what the preconditioner makes of b, the answer of a cycle or
+  /// of the factors; owned and halo. Where the constant is the null space, b must sum to zero.
+  void precondition(CellField<Real>& x, std::span<Real> b);
 
  private:
   struct Handles;

@@ -112,6 +112,12 @@ FlowSetup read_flow(Options& options) {
       "velocity at a face: linear between its cells, their mean (symmetric: makes no "
       "kinetic energy on any mesh), linear_upwind, or that without new extremes "
       "(limited)"));
+  flow.orthogonal_projection =
+      options.choice(
+          "flow_projection", "compact", {"compact", "orthogonal"},
+          "what is made free of divergence: the fluxes alone, or first the cells' velocities "
+          "(orthogonal). With symmetric convection the latter keeps kinetic energy without "
+          "viscosity; no solid, no pressure given") == "orthogonal";
   return flow;
 }
 

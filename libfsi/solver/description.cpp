@@ -76,7 +76,9 @@ std::vector<std::string> Solver::describe_step() const {
       {"advance_interface", solids(&OfBody::advance)},
       {"separate_bodies", where(separation_.has_value(), "sum of the fractions brought to 1")},
       {"advect_pressure_jump", solids(&OfBody::jump)},
-      {"set_pressure_gradient", loaded ? "grad p with the pressure of the openings" : "grad p"},
+      {"set_pressure_gradient", projection_.orthogonal() ? "grad p, adjoint of the flux"
+                                : loaded ? "grad p with the pressure of the openings"
+                                         : "grad p"},
       {"set_velocity_gradient", needs_L() ? "grad u in all cells" : "u at the boundary"},
       {"transport_memory", solids(&OfBody::memory)},
       {"transport_elastic", solids(&OfBody::elastic)},
@@ -90,7 +92,9 @@ std::vector<std::string> Solver::describe_step() const {
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
       {"predict_flux", std::string("phi* of u*") +
                            (modes_.flux_strain ? ", damped by the strain that it makes" : "")},
-      {"project", loaded ? "p, u and phi, with the answers of the openings" : "p, u and phi"},
+      {"project", projection_.orthogonal() ? "u orthogonally, then phi; p"
+                  : loaded                 ? "p, u and phi, with the answers of the openings"
+                                           : "p, u and phi"},
       {"hold_mean_velocity", where(forcing_.has_value(), "mean velocity as given")},
   }};
   std::vector<std::string> lines;

@@ -68,6 +68,8 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
 }
 
 void Solver::put_solid(const Solid& solid) {
+  require(!projection_.orthogonal(),
+          "an orthogonal projection (-flow_projection) is for a fluid without solids");
   std::vector<Patch> mirrors, walls;
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const Condition& here = conditions_[i];

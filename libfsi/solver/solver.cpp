@@ -55,15 +55,24 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
+  if (setup.orthogonal_projection) make_orthogonal();
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
   cells_norm_ = std::sqrt(squares.total());
 }
 
+void Solver::make_orthogonal() {
+  const bool open = std::ranges::any_of(conditions_, fixes_pressure);
+  require(!open,
+          "an orthogonal projection (-flow_projection) takes no patch where the pressure is given");
+  projection_.make_orthogonal(u_stencil_, conditions_);
+}
+
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
   set_gradient(L_, u_b_, state_.t);
+  if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   openings_.set_pressure(p_b_, state_.u);
   const flow::FluxTerms terms{.L_f = L_f_,
                               .p = state_.p,
@@ -143,26 +152,26 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
   set_boundary_velocity(u_b_new_, u, conditions_, state_.t + dt, mesh_);
   if (auto& old = momentum_.old())
     set_boundary_velocity(old->u_b, old->u, conditions_, state_.t - momentum_.dt_old, mesh_);
-  const flow::MomentumTerms terms{
-      .u_b = u_b_,
-      .u_b_new = u_b_new_,
-      .grad_p = grad_p_,
-      .L = L_,
-      .L_f = L_f_,
-      .phi = state_.phi,
-      .mu = mu_,
-      .kappa = implicit(),
-      .mu_varies = modes_.mu_varies,
-      .stiff = modes_.stiff,
-      .force = force_,
-      .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
-      .body = driving_gradient() * axis_};
+  const flow::MomentumTerms terms{.u_b = u_b_,
+                                  .u_b_new = u_b_new_,
+                                  .grad_p = grad_p_,
+                                  .L = L_,
+                                  .L_f = L_f_,
+                                  .phi = state_.phi,
+                                  .mu = mu_,
+                                  .kappa = implicit(),
+                                  .mu_varies = modes_.mu_varies,
+                                  .stiff = modes_.stiff,
+                                  .force = force_,
+                                  .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
+                                  .body = driving_gradient() * axis_};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 
 void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_gradient(L_, u_b_new_, state_.t + dt);
+  if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   for (const auto& [i, L] : interface_L_f_) L_f_[i] = L;
   const flow::FluxTerms terms{
       .L_f = L_f_,
@@ -176,7 +185,7 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
       .kappa = implicit(),
       .elastic = kappa_,
       .rho = physics_.rho,
-      .dt = dt,
+      .dt = projection_.orthogonal() ? 0 : dt,  // then of u* alone
       .density = heavy_ ? &heavy_->density : nullptr,
       .force = heavy_ ? &heavy_->force : nullptr,
       .stress = modes_.G,
@@ -197,8 +206,9 @@ void Solver::project(State& state, Real dt) {
     state.u[c] -= grad_q_[c];
     state.p[c] += physics_.rho / dt * q_[c];
   }
-  flow::add_viscous_pressure(state.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
-                             mesh_);
+  if (!projection_.orthogonal())
+    flow::add_viscous_pressure(state.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
+                               mesh_);
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;
 }

@@ -37,6 +37,9 @@ struct FlowSetup {
   Vec3 frame{};
   int non_orthogonal_correctors = 1;  ///< solves for the pressure beyond the first
   flow::Convection convection = flow::Convection::linear;  ///< face values of the velocity
+  /// The cells' own velocities are projected, too, which keeps their kinetic energy
+  /// (flow/orthogonal.hpp). For a fluid alone, and no pressure given.
+  bool orthogonal_projection = false;
   /// Force per volume on fluid and solid at x and t; none where empty.
   std::function<Vec3(const Vec3& x, Real t)> body_force{};
 };
@@ -252,6 +255,7 @@ class Solver {
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
   Real elastic_dt(const Body& body) const;
+  void make_orthogonal();
   void hold_backup();
   /// Numbers in profile_ of what a step calls.
   struct Calls {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/convection.hpp"
 #include "libfsi/mesh/read.hpp"
@@ -107,6 +108,60 @@ TEST(Tets, EnergyNeverGrowsWithoutViscosity) {
       EXPECT_LE(growth, 1e-4) << name << " " << scheme;
       EXPECT_LE(last, first);
     }
+}
+
+/// What a run without viscosity made of its energy, as parts of that at its start.
+struct Balance {
+  Real change = 0, growth = 0;  ///< at the end; the largest in a step
+};
+
+/// A vortex sin kx cos ky to `end`, convection symmetric, projection orthogonal, all sides slip.
+Balance run_vortex(const Mesh& mesh, Real k, Real end, Real courant) {
+  Conditions conditions;
+  for (const Patch& patch : mesh.patches) conditions[patch.name] = Slip{};
+  Solver solver(mesh, {.rho = 1, .mu_f = 1e-300, .mu_s = 1e-300},
+                {.conditions = conditions,
+                 .convection = flow::Convection::symmetric,
+                 .orthogonal_projection = true});
+  solver.start([k](const Vec3& x) {
+    return Vec3{std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0};
+  });
+  const Real first = energy(solver), dt = solver.advective_dt(courant);
+  Balance balance;
+  for (Real last = first; solver.state().t < end;) {
+    solver.step(dt);
+    const Real now = energy(solver);
+    balance = {now / first - 1, std::max(balance.growth, now / last - 1)};
+    last = now;
+  }
+  std::printf("vortex, %d cells, Courant number %.1f: energy %+.1e, at most %+.1e in a step\n",
+              mesh.n_owned, courant, balance.change, balance.growth);
+  return balance;
+}
+
+// Only the steps change the energy: less than a thousandth, and the less the shorter they are.
+TEST(Tets, OrthogonalProjectionKeepsEnergy) {
+  const Mesh mesh = read_mesh({.file = file("tets8"), .periodic = {}});
+  const Balance coarse = run_vortex(mesh, 2 * pi, 2, 0.4), fine = run_vortex(mesh, 2 * pi, 2, 0.2);
+  EXPECT_LE(std::abs(coarse.change), 1e-3);
+  EXPECT_LE(4 * std::abs(fine.change), std::abs(coarse.change));
+  EXPECT_LE(coarse.growth, 2e-4);  // in the first step, of Euler
+}
+
+TEST(Tets, OrthogonalProjectionKeepsEnergyBesideSlip) {
+  const Mesh mesh = read_mesh({.file = file("slivers8_box"), .periodic = {}});
+  const Balance balance = run_vortex(mesh, pi, 0.3, 0.4);
+  EXPECT_LE(std::abs(balance.change), 1e-4);
+}
+
+TEST(Tets, OrthogonalProjectionIsForAFluidAloneAndNoPressureGiven) {
+  const Mesh mesh = read_mesh({.file = file("slivers8_box"), .periodic = {}});
+  Conditions conditions;
+  for (const std::string& side : all_sides) conditions[side] = Wall{};
+  Solver solver(mesh, {}, {.conditions = conditions, .orthogonal_projection = true});
+  EXPECT_THROW(solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0.5})), Error);
+  conditions["right"] = Opening{};
+  EXPECT_THROW(Solver(mesh, {}, {.conditions = conditions, .orthogonal_projection = true}), Error);
 }
 
 // A lid slides over a box of ten thousand flat and skewed cells, at Re = 1000.
