@@ -38,7 +38,7 @@ def arguments():
                         "folder of the run; of several runs, into the folder that holds the first")
     parser.add_argument("--show", type=lambda text: text.split(","), metavar="WORDS", help="panels of "
                         "series.png and overlay.png, with commas: " + ", ".join(plots.KEYS) + ", all, or "
-                        "any column of solid.csv and flow.csv")
+                        "any column of a csv file in the folder")
     parser.add_argument("--plane", choices=list("xyz"), help="normal of the plane of flow.png in 3-D, "
                         "through the solid's centre; not given: z, or where the solid travels along "
                         "z the axis that it travels along least")
@@ -49,8 +49,8 @@ def arguments():
                         "surface on which Q has this value; without a value: the strongest vortices")
     parser.add_argument("--view", choices=("auto", "body", "vessel"), default="auto", help="what view.png "
                         "holds: the surroundings of the body, or all of the vessel")
-    parser.add_argument("--relative", action="store_true", help="streamlines of view.png as seen by who "
-                        "moves with the body")
+    parser.add_argument("--relative", action="store_true", help="streamlines of flow.png and view.png as "
+                        "seen by who moves with the body")
     parser.add_argument("--time", type=float, help="view.png at the field file nearest to this time; not "
                         "given: the last one with nearly all of the solid in it")
     parser.add_argument("--film", action="store_true", help="film/frame_NNNN.png too, and film.mp4 where "
@@ -93,7 +93,7 @@ def pictures(run, wish):
     deep = run.snapshot(0).dim == 3
     yield "interface.png", views.over_time(run, look, wish.scale) if deep else \
         sections.interface(run, wish.units)
-    yield "flow.png", sections.flow(run, normal, units=wish.units)
+    yield "flow.png", sections.flow(run, normal, units=wish.units, relative=wish.relative)
     if deep:
         number = sections.last_whole(run)
         if wish.time is not None:

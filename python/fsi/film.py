@@ -30,7 +30,8 @@ def film(run, folder, look=None, scale=1, rate=8):
         look = replace(look, frame=(camera.width, camera.height))
     for i, path in enumerate(paths):
         figure = views.view(run, i, look, scale) if deep else \
-            sections.flow(run, look.normal, [i], look.units, look.ranges["speed"][1])
+            sections.flow(run, look.normal, [i], look.units, look.ranges["speed"][1],
+                          look.relative)
         figure.savefig(path, dpi=style.DPI * scale, facecolor="white")
         plt.close(figure)
     return _joined(paths, os.path.join(folder, "film"), rate)

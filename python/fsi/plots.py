@@ -81,10 +81,10 @@ def chosen_panels(show, tables):
     found = []
     for word in KEYS if show == ["all"] else show:
         known = [panel for panel in panels if panel.key == word]
-        of = [name for name in ("solid", "flow") if word in tables[name]]
+        of = [name for name in dict.fromkeys(["solid", "flow", *tables]) if word in tables[name]]
         if not known and not of:
             raise ValueError(f'nothing is called "{word}"; there are {", ".join(KEYS)}, all, and the '
-                             "columns of solid.csv and flow.csv")
+                             "columns of the csv files")
         found += known or [Panel(word, word, of[0], (word,), "1")]
     return found, show != ["all"]
 
@@ -186,7 +186,7 @@ def overlay(runs_shown, show=None, units=labels.Units()):
     for panel in panels:
         if not asked and not fits(panel, runs_shown[0], dim):
             continue
-        names = [name for table in tables for name, _ in lines_of(panel, table[panel.table], asked)]
+        names = [name for table in tables for name, _ in lines_of(panel, table.get(panel.table, {}), asked)]
         found += [(panel, name) for name in dict.fromkeys(names)]
     if not found:
         return None
@@ -194,7 +194,7 @@ def overlay(runs_shown, show=None, units=labels.Units()):
     names = legend(runs_shown)
     for ax, (panel, column) in zip(axes, found):
         for table, name, colour in zip(tables, names, style.colours(len(tables))):
-            if column in table[panel.table]:
+            if column in table.get(panel.table, {}):
                 ax.plot(table[panel.table]["t"], _shown(table[panel.table][column], panel),
                         color=colour, label=name)
         _finish(ax, panel, units, dim, "" if len(panel.columns) == 1 and panel.columns[0] == column

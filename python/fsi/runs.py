@@ -171,6 +171,12 @@ class Snapshot:
             return None
         return np.average(self.mesh.centres(), axis=0, weights=self["alpha"] * self.mesh.volumes)
 
+    def velocity_of_solid(self):
+        """Mean velocity of the solid [3]; None without one."""
+        if not self.has_solid():
+            return None
+        return np.average(self["u"], axis=0, weights=self["alpha"] * self.mesh.volumes)
+
     def volume_of_solid(self, name="alpha"):
         return float(self[name] @ self.mesh.volumes)
 
@@ -202,7 +208,7 @@ OF_SOLID, OF_FLUID = ("B", "stretch"), ("stress",)
 
 
 class Run:
-    """A folder that a run has written."""
+    """A folder that a run has written. `tables` holds solid, flow, and each other csv file with a column t."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -211,6 +217,9 @@ class Run:
         names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
         self.tables = {name: table(os.path.join(folder, name + ".csv")) for name in [*names, "flow"]}
         self.tables.setdefault("solid", self.tables[names[0]] if names else {})
+        for name in sorted(n[:-4] for n in os.listdir(folder) if n.endswith(".csv")):
+            if name not in self.tables and "t" in (found := table(os.path.join(folder, name + ".csv"))):
+                self.tables[name] = found  # of a driver of one's own
         self.summary = summary(folder)
         self.items = series(folder)
 
@@ -295,7 +304,7 @@ def table(path):
     """A csv file as {column: array}; empty where there is none or it has no row."""
     if not os.path.exists(path):
         return {}
-    with open(path, encoding="utf-8") as file:
+    with open(path, encoding="utf-8", errors="replace") as file:
         rows = [row for row in csv.reader(file) if row]
     rows = rows[:1] + [row for row in rows[1:] if len(row) == len(rows[0])]  # one may be half written
     if len(rows) < 2:

@@ -52,14 +52,16 @@ def title(cut, units):
     return f"t = {units.number(cut.snapshot.time, 'time')}{where}"
 
 
-def draw_section(ax, cut, top, units):
-    """Speed, streamlines and interface on one section; returns what a colour bar needs."""
+def draw_section(ax, cut, top, units, relative=False):
+    """Speed, streamlines and interface on one section; returns what a colour bar needs. relative:
+    streamlines as one sees them who moves with the body."""
     _, _, speed = cut.grid(cut["speed"], 900)
     shades = ax.imshow(speed, extent=(cut.low[0], cut.high[0], cut.low[1], cut.high[1]), origin="lower",
                        vmin=0, vmax=top, interpolation="bilinear")
     size = cut.high - cut.low
-    gx, gy, velocity = cut.grid(cut["u"][:, cut.across])
-    if abs(velocity).max() > 0:
+    body = cut.snapshot.velocity_of_solid() if relative else None
+    gx, gy, velocity = cut.grid((cut["u"] - (0 if body is None else body))[:, cut.across])
+    if abs(velocity).max() > 1e-9 * cut["speed"].max():  # else it is rounding
         ax.streamplot(gx, gy, velocity[..., 0], velocity[..., 1], color=(1, 1, 1, 0.55), linewidth=0.6,
                       arrowsize=0.6, density=(1.6, 0.6) if size[0] > 2 * size[1] else 1.1)
     if "alpha" in cut.snapshot:
@@ -69,8 +71,8 @@ def draw_section(ax, cut, top, units):
     return shades
 
 
-def flow(run, normal, numbers=None, units=labels.Units(), top=None):
-    """The speed on a section through the solid, at up to four times."""
+def flow(run, normal, numbers=None, units=labels.Units(), top=None, relative=False):
+    """The speed on a section through the solid, at up to four times; relative: of the streamlines."""
     numbers = spread(len(run.items), 4) if numbers is None else numbers
     found = list(cuts.cuts_through_solid(run.snapshots(numbers), normal))
     size = found[0].high - found[0].low
@@ -84,7 +86,7 @@ def flow(run, normal, numbers=None, units=labels.Units(), top=None):
     # A few values far above the others, as in a run that fails, do not set the range.
     top = max(scene.span(cut["speed"])[1] for cut in found) if top is None else top
     for ax, cut in zip(axes.flat, found):
-        shades = draw_section(ax, cut, top, units)
+        shades = draw_section(ax, cut, top, units, relative)
         if ax is not axes.flat[0] and not wide:
             ax.set_ylabel("")
         if wide and ax is not axes.flat[len(found) - 1]:

@@ -158,8 +158,7 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
     places = shifted[inside]
     grid = scene.Grid(snapshot, "u")
     if look.relative and snapshot.has_solid():
-        weights = snapshot["alpha"] * mesh.volumes
-        grid.values = grid.values - np.average(snapshot["u"], axis=0, weights=weights)
+        grid.values = grid.values - snapshot.velocity_of_solid()
     seeds = scene.apart(places, count)
     size = min(camera.width, camera.height)
     # To both sides far enough to come to the wall, an inlet or an outlet.

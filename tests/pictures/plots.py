@@ -38,7 +38,8 @@ def make(name, modulus, shape="torus", mesh=box((2, 1, 1), (8, 8, 8)), **more):
     flow = {"t": TIME[1:], "pressure_gradient": 0.2 + 0 * TIME[1:] + 0.1 / TIME[1:], "divergence_max": TIME[1:]}
     write_run(place, mesh, more.get("times", [0.0, 0.1, 1.0]), fields,
               {"solid_shear_modulus": modulus, "solid_shape": shape, "output_dir": name, "fluid_viscosity": "0.01",
-               "flow_mean_velocity": "0.5"}, {"solid": solid(slope=float(modulus)), "flow": flow})
+               "flow_mean_velocity": "0.5"}, {"solid": solid(slope=float(modulus)), "flow": flow,
+                                             **more.get("tables", {})})
     return fsi.Run(place)
 
 
@@ -68,6 +69,22 @@ def check_series():
         check(False, "a word that is not known is refused")
     except ValueError as error:
         check('"angel"' in str(error) and "gradient" in str(error), "and told, with those that are known")
+
+
+def check_own_table():
+    """A csv file that a driver of one's own wrote beside; one without a time is none."""
+    tables = {"axis": {"t": TIME[::2], "off_axis": TIME[::2]**2}, "points": {"a": TIME}}
+    own = make("own", "10", tables=tables)
+    check(set(own.tables) == {"solid", "flow", "axis"}, f"tables are found: {sorted(own.tables)}")
+    figure = plots.series(own, ["off_axis", "angle"])
+    check(titles(figure)[0] == "off_axis" and len(figure.axes[0].lines[0].get_xdata()) == 6,
+          f"its column is drawn over its own time: {titles(figure)}")
+    check("off_axis" not in titles(plots.series(own)), "where it is asked for")
+    figure = plots.overlay([own, make("other", "5")], ["off_axis"])
+    check(len(figure.axes[0].lines) == 1, "over a run without it")
+    command = [sys.executable, os.path.join(source, "examples", "draw.py"), own.folder, "--show", "off_axis"]
+    said = subprocess.run([*command, "--relative"], capture_output=True, text=True)
+    check(said.returncode == 0, f"the command draws it: {said.stderr}")
 
 
 def check_failed():
@@ -117,12 +134,16 @@ def check_sections():
     told = titles(figure)
     check(told[0].startswith("t = 0   plane z = 0.5") and len(told) == 3, f"sections are drawn: {told}")
     style.save(figure, os.path.join(folder, "flow.png"))
+    # What moves with the body stands still for who moves with it.
+    arrows = [len(sections.flow(run, "z", [1], relative=relative).axes[0].patches) for relative in (False, True)]
+    check(arrows[0] > 0 == arrows[1], f"streamlines as the body sees them: arrow heads {arrows}")
     flat = make("flat", "1", "sphere", box((2, 1), (16, 8), "triangle"))
     check("none is left at t = 1" in titles(sections.interface(flat))[0], "and the interface is, as long as it is")
     check(cuts.best_normal({"x": [0, 2], "y": [0, 0.1], "z": [0, 3]}) == "y", "seen from where it moves least")
 
 
 check_series()
+check_own_table()
 check_failed()
 check_empty_pipe()
 check_overlay()
