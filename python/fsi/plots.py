@@ -123,8 +123,10 @@ def is_round(run):
 
 
 def fits(panel, run, dim):
-    """Whether a panel tells something of a run of this kind: a round solid has no axis."""
-    return not (panel.key == "angle" and is_round(run) or panel.key == "taylor" and dim == 3)
+    """Whether a panel tells something of a run of this kind: a round solid has no axis, and as much
+    flows one way as the other between plates that slide."""
+    return not (panel.key == "angle" and is_round(run) or panel.key == "taylor" and dim == 3 or
+                panel.key == "rate" and run.summary.get("case") == "shear")
 
 
 def empty_gradient(run):
