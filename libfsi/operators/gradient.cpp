@@ -7,7 +7,7 @@
 namespace fsi {
 namespace {
 
-constexpr Real singular = 0.05;  // of the determinant of a cell's matrix, 1 on a good cell
+constexpr Real no_inverse = 0.05;  // of the determinant of a cell's matrix, 1 on a good cell
 
 void add_to(Vec3& grad, Real dq, const Vec3& g) { grad += dq * g; }
 void add_to(Tensor& grad, const Vec3& dq, const Vec3& g) { grad += outer(dq, g); }
@@ -42,7 +42,7 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
     }
     stencil.closed[at[P]] += (-1 / mesh.V[P]) * outer(mesh.Sf[f], mesh.d[f]);
   }
-  for (Tensor& M : stencil.closed) M = std::abs(det(M)) < singular ? unit : inverse(M);
+  for (Tensor& M : stencil.closed) M = std::abs(det(M)) < no_inverse ? unit : inverse(M);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (mesh.dim == 2) M[c].zz = 1;
     // A corner cell has too few neighbours for a linear fit when det M vanishes (1 on a good cell).
-    if (std::abs(det(M[c])) < singular) {
+    if (std::abs(det(M[c])) < no_inverse) {
       unfit.push_back(c);
       M[c] = -1.0 * fallback[c];
       M[c].xx += 1, M[c].yy += 1, M[c].zz += 1;

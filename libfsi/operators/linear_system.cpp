@@ -60,7 +60,7 @@ namespace {
 
 constexpr PetscReal no_absolute = 1e-300;  // that nobody would ask for
 
-bool given(const std::string& name) {
+bool is_given(const std::string& name) {
   PetscBool there = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &there));
   return there == PETSC_TRUE;
@@ -69,7 +69,7 @@ bool given(const std::string& name) {
 /// Puts an option into the database unless the user did.
 void prefer(const std::string& prefix, const std::string& option, const char* value) {
   const std::string name = "-" + prefix + option;
-  if (!given(name)) FSI_PETSC(PetscOptionsSetValue(nullptr, name.c_str(), value));
+  if (!is_given(name)) FSI_PETSC(PetscOptionsSetValue(nullptr, name.c_str(), value));
 }
 
 /// Global row of every local cell, halo included.
@@ -127,7 +127,7 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       prefer(prefix, "pc_hypre_boomeramg_agg_nl", "1");
       // Of BoomerAMG's own cycle, where the user asks for that; else its levels are all that stays.
       prefer(prefix, "pc_hypre_boomeramg_relax_type_all", "Chebyshev");
-      if (!given("-" + prefix + "pc_type"))
+      if (!is_given("-" + prefix + "pc_type"))
         prefer(prefix, "pc_hypre_boomeramg_max_coarse_size", "500");
       break;
     case Method::direct:
@@ -158,7 +158,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
   check_solver_options(name + "_");
   FSI_PETSC(KSPSetFromOptions(h.solver));
-  h.cycle = method == Method::multigrid && !given("-" + name + "_pc_type");
+  h.cycle = method == Method::multigrid && !is_given("-" + name + "_pc_type");
 }
 
 LinearSystem::~LinearSystem() = default;

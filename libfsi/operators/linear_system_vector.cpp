@@ -14,27 +14,23 @@
 
 namespace fsi {
 
-namespace {
-
 /// What the matrix-vector product and the preconditioner work on.
-struct Operator {
+struct VectorOperator {
   const Mesh& mesh;
   VectorMatrix matrix;
   std::vector<Index> cut;    // internal faces with a cell of another rank, ascending
   std::vector<Real> around;  // [n_cells * dim] of a direction the halo; one rank needs none
   StiffSweep sweep;          // of the matrix, where no other preconditioner is asked for
 
-  explicit Operator(const Mesh& m) : mesh(m), matrix(m), sweep(m) {
+  explicit VectorOperator(const Mesh& m) : mesh(m), matrix(m), sweep(m) {
     for (Index f = 0; f < m.n_internal; ++f)
       if (m.owner[f] >= m.n_owned || m.neighbour[f] >= m.n_owned) cut.push_back(f);
     if (ranks() > 1) around.resize(static_cast<std::size_t>(m.n_cells * m.dim));
   }
 };
 
-}  // namespace
-
 struct VectorSystem::Handles {
-  Operator op;
+  VectorOperator op;
   std::string name;
   Mat shell = nullptr;
   KSP solver = nullptr;
@@ -69,7 +65,7 @@ void add_faces(Real* y, const VectorMatrix& matrix, const Real* x, const Mesh& m
 /// y_c = a_cc x_c + sum_f a_f x_N, dim components a cell, of owned cells; the halo of x arrives
 /// meanwhile.
 template <int dim>
-void multiply(Real* y, Operator& op, const Real* x) {
+void multiply(Real* y, VectorOperator& op, const Real* x) {
   const Mesh& mesh = op.mesh;
   const VectorMatrix& matrix = op.matrix;
   const Index n = mesh.n_owned;
@@ -110,7 +106,7 @@ PetscErrorCode on_values(Vec y, Vec x, const Work& work) noexcept {
 
 PetscErrorCode apply(Mat shell, Vec x, Vec y) noexcept {
   PetscFunctionBegin;
-  Operator* op = nullptr;
+  VectorOperator* op = nullptr;
   PetscCall(MatShellGetContext(shell, &op));
   PetscCall(on_values(y, x, [&](Real* to, const Real* from) {
     (op->mesh.dim == 2 ? multiply<2> : multiply<3>)(to, *op, from);
@@ -120,7 +116,7 @@ PetscErrorCode apply(Mat shell, Vec x, Vec y) noexcept {
 
 PetscErrorCode copy_diagonal(Mat shell, Vec diagonal) noexcept {
   PetscFunctionBegin;
-  Operator* op = nullptr;
+  VectorOperator* op = nullptr;
   PetscScalar* to = nullptr;
   PetscCall(MatShellGetContext(shell, &op));
   PetscCall(VecGetArrayWrite(diagonal, &to));
@@ -131,7 +127,7 @@ PetscErrorCode copy_diagonal(Mat shell, Vec diagonal) noexcept {
 
 PetscErrorCode set_up_sweep(PC pc) noexcept {
   PetscFunctionBegin;
-  Operator* op = nullptr;
+  VectorOperator* op = nullptr;
   PetscCall(PCShellGetContext(pc, &op));
   try {
     op->sweep.renew(op->matrix);
@@ -143,7 +139,7 @@ PetscErrorCode set_up_sweep(PC pc) noexcept {
 
 PetscErrorCode apply_sweep(PC pc, Vec r, Vec z) noexcept {
   PetscFunctionBegin;
-  Operator* op = nullptr;
+  VectorOperator* op = nullptr;
   PetscCall(PCShellGetContext(pc, &op));
   PetscCall(on_values(z, r, [&](Real* to, const Real* from) { op->sweep.apply(to, from); }));
   PetscFunctionReturn(0);

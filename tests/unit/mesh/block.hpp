@@ -182,6 +182,18 @@ class BlockText {
   int elements_ = 0;
 };
 
+inline constexpr CellType all_types[] = {CellType::triangle, CellType::quad,  CellType::tet,
+                                         CellType::hex,      CellType::prism, CellType::pyramid};
+
+/// A bent block of 4 x 3 x 5 boxes cut into cells of one type.
+inline Block block_of(CellType type, int links = 0) {
+  Block block;
+  block.type = type, block.links = links;
+  block.n = {4, 3, 5};
+  block.moved = block.dim() == 2 ? warp_plane : warp;
+  return block;
+}
+
 /// Collective. A file with this text, seen by all ranks; gone with the object.
 class TextFile {
  public:

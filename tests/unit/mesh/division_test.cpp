@@ -16,7 +16,7 @@
 namespace fsi::test {
 namespace {
 
-const std::vector<std::string> sides{"left", "right", "bottom", "top", "back", "front"};
+const std::vector<std::string> box_sides{"left", "right", "bottom", "top", "back", "front"};
 
 /// (owner, neighbour or -1 - patch, shift, corners): what identifies a face on any rank.
 using FaceKey = std::tuple<GlobalIndex, GlobalIndex, Index, std::vector<Real>>;
@@ -87,7 +87,7 @@ void expect_same_faces(const Mesh& part, const Mesh& all) {
 void compare(const Block& block, int axes, const std::string& partitioner = "metis") {
   SCOPED_TRACE(testing::Message() << "type " << static_cast<int>(block.type) << ", links "
                                   << block.links << ", named axes " << axes << ", " << partitioner);
-  const std::vector<std::string> periodic(sides.begin(), sides.begin() + 2 * axes);
+  const std::vector<std::string> periodic(box_sides.begin(), box_sides.begin() + 2 * axes);
   const TextFile file(BlockText(block).text());
   const Mesh part = divided(file.path(), periodic, partitioner);
   const Mesh all = whole(file.path(), periodic);
@@ -97,17 +97,6 @@ void compare(const Block& block, int axes, const std::string& partitioner = "met
   expect_same_cells(part, all);
   expect_same_faces(part, all);
 }
-
-Block block_of(CellType type, int links = 0) {
-  Block block;
-  block.type = type, block.links = links;
-  block.n = {4, 3, 5};
-  block.moved = block.dim() == 2 ? warp_plane : warp;
-  return block;
-}
-
-constexpr CellType all_types[] = {CellType::triangle, CellType::quad,  CellType::tet,
-                                  CellType::hex,      CellType::prism, CellType::pyramid};
 
 TEST(Division, EveryCellType) {
   for (const CellType type : all_types) compare(block_of(type), 0);

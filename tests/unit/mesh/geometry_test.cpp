@@ -10,9 +10,6 @@
 namespace fsi::test {
 namespace {
 
-constexpr CellType all_types[] = {CellType::triangle, CellType::quad,  CellType::tet,
-                                  CellType::hex,      CellType::prism, CellType::pyramid};
-
 Mesh block_mesh(const Block& block, const std::vector<std::string>& periodic) {
   const TextFile file(BlockText(block).text());
   return divided(file.path(), periodic);

@@ -11,16 +11,6 @@
 namespace fsi::test {
 namespace {
 
-constexpr CellType all_types[] = {CellType::triangle, CellType::quad,  CellType::tet,
-                                  CellType::hex,      CellType::prism, CellType::pyramid};
-
-Block block_of(CellType type) {
-  Block block;
-  block.type = type, block.n = {4, 3, 5};
-  block.moved = block.dim() == 2 ? warp_plane : warp;
-  return block;
-}
-
 /// Points of a label on this rank, halo included.
 PetscInt labelled(DM dm, const std::string& name, PetscInt value) {
   PetscInt n = 0;

@@ -78,8 +78,8 @@ TEST(Stencil, SquareAndAdjugate) {
   const SymTensor t{4, 1, -1, 3, 0.5, 2};
   EXPECT_LE(norm(dot(inverse(t), dot(t, v)) - v), 1e-14);
   EXPECT_LE(norm(dot(adjugate(t), dot(t, v)) - det(t) * v), 1e-13);
-  const Tensor L{1, 2, 3, 4, 5, 6, 7, 8, 9};
-  EXPECT_LE(norm(dot(dot(L, t), v) - dot(L, dot(t, v))), 1e-13);
+  const Tensor A{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_LE(norm(dot(dot(A, t), v) - dot(A, dot(t, v))), 1e-13);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@
 namespace fsi::vof {
 namespace {
 
-constexpr Real radius = 0.3;
-const Vec3 centre{0.51, 0.49, 0.5};
+constexpr Real ball_radius = 0.3;
+const Vec3 ball_centre{0.51, 0.49, 0.5};
 
 /// The part of a face inside the sphere.
 Real part_inside(const Mesh& mesh, Index f, Index c) {
@@ -28,7 +28,7 @@ Real part_inside(const Mesh& mesh, Index f, Index c) {
       const Real a = (i + 1.0 / 3) / n, b = (j + 1.0 / 3) / n;
       const Vec3 x = mesh.corner(f, 0, c) + a * (mesh.corner(f, 1, c) - mesh.corner(f, 0, c)) +
                      b * (mesh.corner(f, 2, c) - mesh.corner(f, 0, c));
-      inside += norm(x - centre) < radius ? 1 : 0, ++all;
+      inside += norm(x - ball_centre) < ball_radius ? 1 : 0, ++all;
     }
   EXPECT_EQ(points.size(), 3U);
   return static_cast<Real>(inside) / all;
@@ -41,7 +41,8 @@ struct SphereOnTets {
   CellField<Bend> bend{mesh};
 
   SphereOnTets() {
-    fill(alpha, mesh, shapes::translate(shapes::sphere(radius), centre), {}, {1e-4, 0, 4});
+    fill(alpha, mesh, shapes::translate(shapes::sphere(ball_radius), ball_centre), {},
+         {1e-4, 0, 4});
     ReconstructScratch scratch(mesh);
     reconstruct(interface, alpha, mesh, scratch);
     geometry::Polytope cell(3);
@@ -60,8 +61,8 @@ TEST(Bend, OfASphere) {
     off.add(sphere.bend[c].mean);
   }
   const Real mean = trace_K.total() / count.total();
-  if (rank() == 0) std::printf("mean trace of K times r: %.3f\n", mean * radius);
-  EXPECT_NEAR(mean * radius, 2, 0.2);
+  if (rank() == 0) std::printf("mean trace of K times r: %.3f\n", mean * ball_radius);
+  EXPECT_NEAR(mean * ball_radius, 2, 0.2);
   EXPECT_GT(off.total(), 0);
 }
 

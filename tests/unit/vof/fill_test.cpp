@@ -11,7 +11,7 @@ namespace {
 
 using namespace shapes;
 
-const Vec3 centre{0.513, 0.497, 0.488};
+const Vec3 solid_centre{0.513, 0.497, 0.488};
 const Vec3 centre_2d{0.513, 0.497, 0};
 
 struct Result {
@@ -53,7 +53,7 @@ TEST(Fill, DiscOnQuadsAndTriangles) {
 
 TEST(Fill, TorusAt32CellsPerDiameter) {
   const Mesh mesh = test::read_box({{32, 32, 32}});
-  const Shape shape = translate(rotate(torus(0.3, 0.1), {0, 0, 1}, pi / 4), centre);
+  const Shape shape = translate(rotate(torus(0.3, 0.1), {0, 0, 1}, pi / 4), solid_centre);
   const Result r = filled(mesh, shape, torus_volume(0.3, 0.1));
   EXPECT_LE(r.error, 1e-7);
   EXPECT_LE(r.estimate, 3e-6);
@@ -62,20 +62,21 @@ TEST(Fill, TorusAt32CellsPerDiameter) {
 TEST(Fill, SmoothShapesOnDistortedHexesAndTets) {
   for (const bool simplex : {false, true}) {
     const Mesh mesh = test::read_box({{14, 14, 14}, {1, 1, 1}, simplex, {}, distorted});
-    const Result ball = filled(mesh, translate(sphere(0.3), centre), sphere_volume(0.3));
+    const Result ball = filled(mesh, translate(sphere(0.3), solid_centre), sphere_volume(0.3));
     EXPECT_LE(ball.error, 1e-6);
     EXPECT_LE(ball.error, ball.estimate);
     if (simplex) continue;
     const Vec3 semi_axes{0.2632, 0.4, 0.2632};
-    const Result egg = filled(mesh, translate(rotate(ellipsoid(semi_axes), {0, 0, 1}, 0.7), centre),
-                              ellipsoid_volume(semi_axes));
+    const Result egg =
+        filled(mesh, translate(rotate(ellipsoid(semi_axes), {0, 0, 1}, 0.7), solid_centre),
+               ellipsoid_volume(semi_axes));
     EXPECT_LE(egg.error, 1e-6);
   }
 }
 
 TEST(Fill, SharpEdgesAreSecondOrderInTheLastDivision) {
   const Mesh mesh = test::read_box({{12, 12, 12}});
-  const Shape shape = translate(rotate(disk(0.3545, 0.1772), {0, 0, 1}, pi / 4), centre);
+  const Shape shape = translate(rotate(disk(0.3545, 0.1772), {0, 0, 1}, pi / 4), solid_centre);
   const Real exact = cylinder_volume(0.3545, 0.1772);
   const Real coarse = filled(mesh, shape, exact, {1e9, 1, 1}).error;
   const Real fine = filled(mesh, shape, exact, {1e9, 3, 3}).error;
@@ -87,7 +88,7 @@ TEST(Fill, SharpEdgesAreSecondOrderInTheLastDivision) {
 
 TEST(Fill, SmoothSurfacesAreThirdOrderAndBetterInTheLastDivision) {
   const Mesh mesh = test::read_box({{8, 8, 8}});
-  const Shape shape = translate(sphere(0.3), centre);
+  const Shape shape = translate(sphere(0.3), solid_centre);
   const Real coarse = filled(mesh, shape, sphere_volume(0.3), {1e9, 0, 0}).error;
   const Real fine = filled(mesh, shape, sphere_volume(0.3), {1e9, 3, 3}).error;
   EXPECT_GT(std::log2(coarse / fine) / 3, 3.2);

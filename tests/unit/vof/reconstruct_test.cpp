@@ -23,7 +23,7 @@ void fill_half_space(CellField<Real>& alpha, const Mesh& mesh, const Vec3& n, co
 }
 
 /// A smooth map of the unit box to itself that leaves its boundary in place.
-Vec3 distorted(const Vec3& x) {
+Vec3 little_distorted(const Vec3& x) {
   const Real s = std::sin(3.14159265 * x.x) * std::sin(3.14159265 * x.y);
   return {x.x + 0.04 * s * std::sin(6 * x.y), x.y + 0.04 * s * std::cos(3 * x.x), x.z};
 }
@@ -59,7 +59,7 @@ Worst plane_error(const Mesh& mesh, Vec3 n, const ReconstructAccuracy& accuracy 
 TEST(Reconstruct, APlaneIsExactInTheLimit) {
   for (const Index nz : {0, 6}) {
     for (const bool simplex : {false, true}) {
-      const Mesh mesh = test::read_box({{6, 6, nz}, {1, 1, 1}, simplex, {}, distorted});
+      const Mesh mesh = test::read_box({{6, 6, nz}, {1, 1, 1}, simplex, {}, little_distorted});
       const Worst worst = plane_error(mesh, {0.3, 1, nz > 0 ? -0.2 : 0}, {150, 0, 0});
       EXPECT_LE(worst.angle, 1e-12);
       EXPECT_LE(worst.distance, 1e-12);
@@ -72,7 +72,7 @@ TEST(Reconstruct, AnyPlaneOnAnyMesh) {
     for (const bool simplex : {false, true}) {
       for (const bool moved : {false, true}) {
         test::BoxFile box{{12, 12, nz}, {1, 1, 1}, simplex};
-        if (moved) box.moved = distorted;
+        if (moved) box.moved = little_distorted;
         const Mesh mesh = test::read_box(box);
         Worst worst;
         for (const Vec3& n : {Vec3{1, 0.3, 0}, {-0.4, 1, 0}, {1, 1, 0}, {-1, -0.2, 0.7}}) {
@@ -159,7 +159,7 @@ TEST(Reconstruct, NormalsOfCircleAndSphere) {
   EXPECT_GE(quads.normal / fine.normal, 3);
   EXPECT_GE(quads.position / fine.position, 3.5);
   EXPECT_LE(sphere_error({{30, 30, 30}}).normal, 2.3e-4);
-  EXPECT_LE(sphere_error({{30, 30, 0}, {1, 1, 1}, true, {}, distorted}).normal, 3.5e-4);
+  EXPECT_LE(sphere_error({{30, 30, 0}, {1, 1, 1}, true, {}, little_distorted}).normal, 3.5e-4);
 }
 
 TEST(Reconstruct, NoInterfaceNoPlanes) {

@@ -61,9 +61,9 @@ TEST(Separate, FillsNoCellFromAllItsFacesTooFar) {
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.n_cells; ++c) {
     const Real x = std::abs(mesh.C[c].x - 0.5) * 9, y = std::abs(mesh.C[c].y - 0.5) * 9;
-    const bool middle = x + y<0.5, beside = x + y> 0.5 && x + y < 1.5;
-    for (auto& one : alpha) one[c] = middle ? 0.3 : beside ? 0.5 : 0;
-    if ((middle || beside) && c < mesh.n_owned) cells.push_back(c);
+    const bool in_middle = x + y<0.5, beside = x + y> 0.5 && x + y < 1.5;
+    for (auto& one : alpha) one[c] = in_middle ? 0.3 : beside ? 0.5 : 0;
+    if ((in_middle || beside) && c < mesh.n_owned) cells.push_back(c);
   }
   vof::Separation separation(mesh, 3);
   std::vector<vof::Fractions> bodies;
