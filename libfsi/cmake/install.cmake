@@ -15,7 +15,7 @@ if(FSI_DRIVERS)
   install(TARGETS ${programs} COMPONENT programs)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/drivers/mpiexec.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME fsi-mpiexec
           COMPONENT programs)
-  install(FILES ${FSI_MAN_PAGES} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(FILES ${FSI_MAN_PAGES} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs OPTIONAL)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/fsiConfig.cmake.in
