@@ -16,7 +16,7 @@ namespace fsi::flow {
 ///   p_j = p_far + R_p Q_mid + p_c,   C dp_c/dt = Q_mid - p_c / R_d  by the midpoint rule,
 ///   Q_mid = Q^(n+1) - (dt / 2) (Q^n - Q^(n-1)) / dt_old
 /// that is one small linear system a step. It is implicit and of second order, and damped where a
-/// step is long for the load (doc/theory/flow.md).
+/// step is long for the load (doc/theory/openings.md).
 class Loads {
  public:
   /// Collective. One projection for each loaded opening. openings: must outlive it.

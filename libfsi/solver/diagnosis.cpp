@@ -79,6 +79,7 @@ Solver::Term Solver::holder(Real dt) const {
 
 std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
   const Term term = rejection.term;
+  if (std::string of_force = diagnosis_of_force(term, dt); !of_force.empty()) return of_force;
   if (term == Term::pressure) {
     flow::divergence(divergence_, state_.phi, mesh_);
     return at_worst([&](Index c) { return dt * std::abs(divergence_[c]); },
@@ -107,6 +108,31 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
                   term == Term::solve ? "" : "convection limits") +
          print("; the largest speed is %.3g at (%.5g, %.5g, %.5g)", speed.value, speed.x.x,
                speed.x.y, speed.x.z);
+}
+
+std::string Solver::diagnosis_of_force(Term term, Real dt) const {
+  const bool of_flow = term == Term::solve || term == Term::convection || term == Term::pressure;
+  if (!driving_force_ || !of_flow) return "";
+  // A step that a solve has ended did not come to its own time.
+  const Real t = state_.t + (term == Term::solve ? dt : -dt) / 2;
+  const auto force = [&](Index c) { return norm(driving_force_(mesh_.C[c], t)); };
+  // |f| dt^2 / (2 rho h)
+  const auto cells = [&](Index c) {
+    Real widest = 0;
+    for (const Index f : mesh_.cell_faces[c]) widest = std::max(widest, norm(mesh_.Sf[f]));
+    return force(c) * dt * dt / (2 * physics_.rho) * widest / mesh_.V[c];
+  };
+  const Worst w = worst(figures(mesh_, cells), mesh_, 1).front();
+  if (!(w.value > 1)) return "";
+  const auto lost = [&](Index c) { return std::isfinite(force(c)) ? 0.0 : 1.0; };
+  if (const Worst first = worst(figures(mesh_, lost), mesh_, 1).front(); first.value > 0)
+    return print("the body force has its first value that is not finite at (%.5g, %.5g, %.5g)",
+                 first.x.x, first.x.y, first.x.z);
+  const Real largest = norm(driving_force_(w.x, t));
+  return print(
+      "the body force is %.3g at (%.5g, %.5g, %.5g) and would take fluid at rest through %.3g "
+      "cells in the step; look at its size and its units",
+      largest, w.x.x, w.x.y, w.x.z, w.value);
 }
 
 std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) const {

@@ -144,7 +144,14 @@ void Solver::set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t
 void Solver::add_body_force(CellField<Vec3>& force, Real t) {
   const Profile::Call call(profile_, calls_.add_body_force);
   if (!driving_force_) return;
-  for (Index c = 0; c < mesh_.n_owned; ++c) force[c] += driving_force_(mesh_.C[c], t);
+  Real sum = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    const Vec3 f = driving_force_(mesh_.C[c], t);
+    force[c] += f;
+    sum += std::abs(f.x) + std::abs(f.y) + std::abs(f.z);
+  }
+  if (!all_of_ranks(std::isfinite(sum)))
+    throw Error(ErrorKind::numerics, "the body force is not finite");
 }
 
 void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {

@@ -230,6 +230,8 @@ class Solver {
   Rejection rejection_reason(const Body& body, Real dt) const;
   /// Where the state as it stands is worst in that respect: a sentence with figure, place and cell.
   std::string diagnosis(const Rejection& rejection, Real dt);
+  /// Empty where the body force is not what makes a step of dt too long.
+  std::string diagnosis_of_force(Term term, Real dt) const;
   std::string diagnosis_of_solid(const Body& body, Term term, Real dt) const;
   template <class Figure>
   std::string at_worst(const Figure& figure, const char* what, const char* why) const;

@@ -203,6 +203,29 @@ TEST(Recovery, NamesTheCrushedCellAndNoSpeckOfSolid) {
   EXPECT_LT(norm(x - Vec3{0.5, 0.5, 0}), 0.25) << said;
 }
 
+TEST(Recovery, NamesABodyForceThatNoStepCanFollow) {
+  const Mesh mesh = test::read_box({.n = {n, n, 0}, .periodic = {"left", "right"}});
+  constexpr Real onset = 0.02, dt = onset;
+  for (const Real size : {1e30, std::numeric_limits<Real>::infinity()}) {
+    const bool finite = std::isfinite(size);
+    const auto force = [=](const Vec3& x, Real t) {
+      return t > onset && x.x > 0.5 ? Vec3{size, 0, 0} : Vec3{1, 0, 0};
+    };
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.01},
+                  {.conditions = {{"top", Wall{}}, {"bottom", Wall{}}}, .body_force = force});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    ASSERT_EQ(solver.advance(dt), dt);
+    ASSERT_EQ(solver.advance(100 * dt), 0);
+    const std::string& said = solver.report().failure;
+    std::printf("%s\n", said.c_str());
+    EXPECT_NE(said.find(finite ? "the body force is 1e+30 at (0." : "body force is not finite"),
+              std::string::npos)
+        << said;
+    EXPECT_EQ(said.find("hex"), std::string::npos) << said;
+    EXPECT_EQ(solver.state().t, dt);
+  }
+}
+
 TEST(Recovery, NamesASolidThatIsCarriedTooFar) {
   // Two steps at a Courant number below the flow's limit of 1.2, the solid's move above one.
   const Scene scene{.G = 1e-6};
