@@ -39,12 +39,12 @@ def check_wishes(folder):
     """VTK for the examples: installed with the rest, and done without where that cannot be."""
     said = set_up(folder, FSI_FOR="examples")
     check(said.returncode == 0 and "python3-vtk9 xvfb" in said.stdout and "libgtest-dev" not in said.stdout and
-          len(said.calls) == 4 and "gmsh" not in said.calls[1] and "gmsh" in said.calls[3],
-          f"with what a build does not need, and without the tests' packages: {said.stdout}{said.calls}")
+          len(said.calls) == 4 and "matplotlib" not in said.calls[1] and "matplotlib" in said.calls[3],
+          f"with what draws, and without the tests' packages: {said.stdout}{said.calls}")
     check("python3-vtk9" not in set_up(folder).stdout, "the tests do not ask for it")
-    said = set_up(folder, missing="gmsh", broken=folder, FSI_FOR="examples")
+    said = set_up(folder, missing="python3-h5py", broken=folder, FSI_FOR="examples")
     check(said.returncode != 0 and "set up" not in said.stdout and "Setting up package 300" in said.stderr,
-          "what fails beside the build ends the set-up")
+          "what fails beside ends the set-up")
     said = set_up(folder, missing="", FSI_FOR="examples")
     check(said.returncode == 0 and said.stdout == "set up\n" and not said.calls, "no network where nothing is missing")
     said = set_up(folder, unknown="python3-vtk9", FSI_FOR="examples")
