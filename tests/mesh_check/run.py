@@ -96,8 +96,7 @@ def main():
     launcher = sys.argv[4:]
     os.makedirs(folder, exist_ok=True)
     tets, quads = os.path.join(folder, "tets.msh"), os.path.join(folder, "quads.msh")
-    gmsh(source, "cylinder", tets, 3, "-setnumber", "n", "5", "-setnumber", "optimise", "0",
-         "-setnumber", "algorithm", "10")
+    gmsh(source, "cylinder", tets, 3, "-setnumber", "n", "5", "-setnumber", "optimise", "0")
     gmsh(source, "cavity", quads, 2, "-setnumber", "n", "16")
     doctor = [os.path.join(drivers, "fsi-mesh"), "check"]
     reports = []
