@@ -12,7 +12,6 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/forewords.hpp"
-#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/strain.hpp"
 
 namespace fsi {
@@ -275,14 +274,13 @@ void put_solids(Solver& solver, const Case& setup) {
   for (const SolidSetup& s : setup.solids) {
     solver.put_solid(s.solid);
     const Body& body = solver.bodies().back();
-    const bool simplices = solid::has_simplices(solver.mesh());
     if (rank() != 0) continue;
-    if (s.solid.memory && !body.held && body.extended())
+    if (s.solid.memory && body.zone.any() && body.extended())
       std::printf(
-          "%s: no memory of its shape on triangles and tetrahedra: a shape under load creeps "
+          "%s: no memory of its shape %s triangles and tetrahedra: a shape under load creeps "
           "(doc/howto/vessel.md, section 4)\n",
-          s.shape_name.c_str());
-    if (simplices && s.solid.kinematics == KinematicsKind::left_cauchy_green)
+          s.shape_name.c_str(), body.held ? "in cells at" : "on");
+    if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
       std::fprintf(stderr,
                    "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "
                    "triangles and tetrahedra; take log_conformation\n",

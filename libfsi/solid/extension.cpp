@@ -111,13 +111,18 @@ void Extension::linear(CellField<SymTensor>& T, CellField<SymGradient>& slope) {
 }
 
 void Extension::fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope,
-                                         Real speed, Real recovery, Real dt) {
+                                         const CellField<Real>& where, Real speed, Real recovery,
+                                         Real dt) {
   if (!(speed > 0)) return;
   mesh_.halo.update(T, rings_.number());
   for (const Index c : known_) slope[c] = least_squares(T, c);
   mesh_.halo.update(slope, rings_.number());
   change_.clear();
   for (const Index c : known_) {
+    if (where[c] == 0) {
+      change_.emplace_back();
+      continue;
+    }
     SymTensor sum;
     Real weights = 0;
     for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {

@@ -48,6 +48,7 @@ struct CutFaces {
   const CellField<Real>& alpha;    ///< fractions of the cells
 };
 
+class InterfaceGradient;
 class ReferenceMap;
 
 /// The flow, frozen over a step of the solid.
@@ -57,8 +58,8 @@ struct FlowSnapshot {
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;      ///< of the faces
-  /// What strains the solid's cells, owned (InterfaceGradient); none: L, u and phi do.
-  const CellField<Tensor>* strain = nullptr;
+  /// What strains the solid's cells in its zone; none, and in other cells: L, u and phi do.
+  const InterfaceGradient* one_sided = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere
   const CutFaces* cuts = nullptr;    ///< none: the strain is not bounded by the work of the force
   Real wave_speed = 0;               ///< of shear in the solid at rest, sqrt(G / rho)

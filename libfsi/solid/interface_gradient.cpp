@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
@@ -37,13 +36,6 @@ std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
 
 }  // namespace
 
-bool has_simplices(const Mesh& mesh) {
-  bool none = true;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    none = none && static_cast<int>(mesh.cell_faces[c].size()) > mesh.dim + 1;
-  return !all_of_ranks(none);
-}
-
 void InterfaceGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
                               const BoundaryField<Vec3>& u_b, const Cuts& cuts,
                               std::span<const Index> cells) {
@@ -64,7 +56,7 @@ void InterfaceGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
                                   std::span<const Index> cells) {
   for (const Index c : cells) {
     const Vec3& n = cuts.normal[c];
-    if (norm2(n) == 0) continue;
+    if (norm2(n) == 0 || !zone_.near(c)) continue;
     Tensor in, out;
     Real w_in = 0, w_out = 0;
     for (const Index k : mesh_.cell_neighbours[c]) {
@@ -94,7 +86,8 @@ void InterfaceGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();
   for (const Index c : cells) {
-    if (!known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known)) continue;
+    if (!zone_.has(c) || !known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known))
+      continue;
     const auto whole = fit(L, u_in, u_b, known, none, mesh_, c);
     if (!whole) continue;
     L[c] = *whole;
@@ -105,7 +98,7 @@ void InterfaceGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u
   mesh_.halo.update(L);
   const auto deep = [&](Index c) { return deep_[c] > 0; };
   for (const Index c : cells) {
-    if (deep(c)) continue;
+    if (!zone_.has(c) || deep(c)) continue;
     const bool in = known(c);
     const auto same = [&](Index n) { return known(n) == in; };
     const auto sided =
@@ -120,13 +113,14 @@ void InterfaceGradient::set_strain(const CellField<Tensor>& L, const CellField<V
                                    std::span<const Index> cells) {
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto deep = [&](Index c) { return deep_[c] > 0; };
-  const auto set = [](Index) { return true; };
+  const auto set = [&](Index c) { return zone_.near(c); };
   const auto u_at = [&](Index f) { return &u_b[f - mesh_.n_internal]; };
   const OfOneSide u_in{u, kink_in_};
   beside_.clear();
   for (const Index c : cells) {
-    if (known(c)) strain_[c] = L[c];
-    if (known(c) && !deep(c)) beside_.push_back(c);
+    if (!zone_.near(c) || !known(c)) continue;
+    strain_[c] = L[c];
+    if (!deep(c)) beside_.push_back(c);
   }
   mesh_.halo.update(strain_);
   constexpr int sweeps = 4;

@@ -6,11 +6,9 @@
 
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/solid/simplex_zone.hpp"
 
 namespace fsi::solid {
-
-/// Collective. Whether the mesh has triangles or tetrahedra.
-bool has_simplices(const Mesh& mesh);
 
 /// Where the surface cuts cells, and what a kink j max(0, s) of u there, s the distance along n,
 /// adds to their velocity. All owned and halo.
@@ -21,8 +19,8 @@ struct Cuts {
   const CellField<Real>& fluid_side;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
 };
 
-/// Sets L in the listed cells: those of the solid (alpha >= 1/2) that know their strain, and all
-/// that share a vertex with one.
+/// Sets L in the listed cells of the zone: those of the solid (alpha >= 1/2) that know their
+/// strain, and all that share a vertex with one.
 ///
 /// A triangle is not symmetric about its centre: the library's gradient is off by a part of
 /// h grad grad u that changes sign from cell to cell, and the strain keeps it. At the surface,
@@ -44,9 +42,9 @@ struct Cuts {
 /// 1 - alpha.
 class InterfaceGradient {
  public:
-  /// mesh must outlive it.
-  explicit InterfaceGradient(const Mesh& mesh)
-      : mesh_(mesh), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
+  /// mesh and zone must outlive it.
+  InterfaceGradient(const Mesh& mesh, const SimplexZone& zone)
+      : mesh_(mesh), zone_(zone), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
 
   /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
@@ -63,8 +61,11 @@ class InterfaceGradient {
   void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
                   const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
                   std::span<const Index> cells);
-  /// What strains the solid's cells, owned and halo; elsewhere what an earlier call left.
+  /// What strains the solid's cells near the zone, owned and halo; elsewhere what an earlier call
+  /// left.
   const CellField<Tensor>& strain() const { return strain_; }
+  /// The cells whose L and strain are those of here.
+  const SimplexZone& zone() const { return zone_; }
 
  private:
   void clear_kinks();
@@ -73,6 +74,7 @@ class InterfaceGradient {
                  const CellField<Real>& alpha, std::span<const Index> cells);
 
   const Mesh& mesh_;
+  const SimplexZone& zone_;
   CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
   std::vector<Index> last_deep_;
   CellField<Tensor> strain_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
 #include "libfsi/solid/one_sided.hpp"
@@ -28,6 +29,11 @@ SymTensor for_skewness(const SymTensor& step, const SymGradient& up, const SymGr
                        const Vec3& s, const Vec3& d) {
   const Real b = std::min(0.5, norm(s) / norm(d));
   return 0.5 * (along(up, s + b * d) + along(down, s + b * d)) + (-b) * step;
+}
+
+/// Whether the fit of one side strains cell c.
+bool by_fit(const FlowSnapshot& snapshot, Index c) {
+  return snapshot.one_sided != nullptr && snapshot.one_sided->zone().has(c);
 }
 
 }  // namespace
@@ -66,17 +72,18 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
     return bound_by_work(L, excess, psi[c] + (dt / 2) * log_rate(L, psi[c]));
   };
   const auto of_own_side = [&](Index c) {
-    if (snapshot.strain) return (*snapshot.strain)[c];
     const Tensor L = one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c);
     return remove_normal_divergence(L, alpha, mesh_, c);
   };
   L_.clear();
-  for (const Index c : known_.core())
+  for (const Index c : known_.core()) {
+    const bool fitted = by_fit(snapshot, c);
     if (!inner(c))
-      L_.push_back(bounded(of_own_side(c), c));
+      L_.push_back(bounded(fitted ? snapshot.one_sided->strain()[c] : of_own_side(c), c));
     else
-      L_.push_back(snapshot.strain ? (*snapshot.strain)[c]
-                                   : flux_consistent_gradient(snapshot, mesh_, c));
+      L_.push_back(fitted ? snapshot.one_sided->strain()[c]
+                          : flux_consistent_gradient(snapshot, mesh_, c));
+  }
 }
 
 Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
@@ -118,6 +125,7 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
+    if (by_fit(snapshot, c)) continue;
     const Real rate = by_flow * courant_rate(snapshot.phi, mesh_, c) +
                       by_wave * snapshot.wave_speed / cell_size(mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));
@@ -137,8 +145,9 @@ Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<S
   for (std::size_t i = 0; i < core.size(); ++i)
     psi[core[i]] = isochoric(0.5 * (old_[i] + psi[core[i]] + dt * rate_[i]));
   if (snapshot.memory) recall(snapshot, dt);
-  if (snapshot.strain)
-    extension_.fourth_difference_filter(psi, grad, snapshot.wave_speed, snapshot.recovery, dt);
+  if (snapshot.one_sided)
+    extension_.fourth_difference_filter(psi, grad, snapshot.one_sided->zone().cells(),
+                                        snapshot.wave_speed, snapshot.recovery, dt);
   extension_.linear(psi, grad);
   return fastest;
 }

@@ -71,16 +71,16 @@ class LogConformation {
   CellField<SymTensor> psi;  ///< log B
 
  private:
-  /// Sets L_: snapshot.strain, or the velocity gradient without the divergence of the cell
-  /// velocities (solenoidal.hpp). In the solid's outermost cells it is that of its own side
-  /// (one_sided.hpp). By it they take up no more energy over dt than the force takes from the flow
-  /// (work_bound.hpp).
+  /// Sets L_: by the fit of one side in its zone, else the velocity gradient without the divergence
+  /// of the cell velocities (solenoidal.hpp). In the solid's outermost cells it is that of its own
+  /// side (one_sided.hpp). By it they take up no more energy over dt than the force takes from the
+  /// flow (work_bound.hpp).
   void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
-  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi) on known_.core(),
+  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi) off the zone,
   /// Co the cell's Courant number, c the speed of the elastic wave. psi wears down with the way
   /// through the mesh, which does not touch the map. Where a stiff body hardly moves through the
   /// mesh, waves along its surface grow: what the wave passes draws them back.

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "libfsi/solid/extension.hpp"
-#include "libfsi/solid/interface_gradient.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -44,8 +43,9 @@ Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& m
   return time;
 }
 
-SemiImplicitElasticity::SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights)
-    : mesh_(mesh), simplex_(has_simplices(mesh)) {
+SemiImplicitElasticity::SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights,
+                                               const SimplexZone& zone)
+    : mesh_(mesh), zone_(zone) {
   CellField<Real> K(mesh);
   for (Index c = 0; c < mesh.n_owned; ++c)
     for (const Index f : mesh.cell_faces[c])
@@ -79,10 +79,11 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
     // less mu_s, as the solid's own compact viscous term does its part
-    if (solid.one_sided) {
+    const bool in_zone = zone_.has(P) || zone_.has(N), one_sided = in_zone && solid.one_sided;
+    if (one_sided) {
       e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
       kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
-    } else if (simplex_) {
+    } else if (in_zone) {
       e *= 2;
       kappa[f] += e;
     } else {
@@ -95,7 +96,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
     const Vec3 rise = solid.u[N] - solid.u[P];
     const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
-    if (solid.one_sided && dot(flux, rise - dot(spin(L_f), mesh_.d[f])) < 0) continue;
+    if (one_sided && dot(flux, rise - dot(spin(L_f), mesh_.d[f])) < 0) continue;
     force[P] += (1 / mesh_.V[P]) * flux;
     force[N] -= (1 / mesh_.V[N]) * flux;
   }

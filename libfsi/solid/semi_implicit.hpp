@@ -6,6 +6,7 @@
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/solid/simplex_zone.hpp"
 
 namespace fsi::solid {
 
@@ -24,8 +25,9 @@ struct ElasticTerms {
   const CellField<Real>& fraction;  ///< alpha; owned and halo
   /// Shear modulus, density, viscosity of the solid; length of the step.
   Real G, rho, mu_s, dt;
-  bool kink = false;       ///< the mean of L allows for a kink of u at the surface
-  bool one_sided = false;  ///< L is that of the cell's own side of the surface (InterfaceGradient)
+  bool kink = false;  ///< the mean of L allows for a kink of u at the surface
+  /// In the zone L is that of the cell's own side of the surface (InterfaceGradient).
+  bool one_sided = false;
   /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.
   const CellField<Vec3>* normal = nullptr;
   Real rho_least = rho;  ///< of the solid and what is beside it
@@ -71,8 +73,8 @@ struct ElasticTerms {
 /// on triangles and tetrahedra needs twice the root.
 class SemiImplicitElasticity {
  public:
-  /// Collective.
-  SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights);
+  /// Collective. mesh and zone must outlive it.
+  SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights, const SimplexZone& zone);
 
   /// kappa / (dt G alpha lambda_B).
   static constexpr Real implicit_fraction = 0.4;
@@ -80,7 +82,7 @@ class SemiImplicitElasticity {
   /// Takes out what the last `apply` added.
   void clear(FaceField<Real>& kappa);
 
-  /// Collective. kappa_f += the implicit coefficient, on triangles and tetrahedra with i or e
+  /// Collective. kappa_f += the implicit coefficient, at faces of the zone with i or e
   /// added; lambda_B linear between the cells, times the face's alpha; nothing outside the band.
   /// force += the explicit rest of the second.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const ElasticTerms& solid,
@@ -88,7 +90,7 @@ class SemiImplicitElasticity {
 
  private:
   const Mesh& mesh_;
-  bool simplex_ = false;       // whether the mesh has triangles or tetrahedra
+  const SimplexZone& zone_;
   std::vector<Real> inertia_;  // [n_internal] m dt / (rho |d|^2)
   std::vector<Index> last_faces_;
 };

@@ -24,10 +24,12 @@ std::string name_of(const Kinematics& kinematics) {
   return "log_conformation";
 }
 
-OffWalls::OffWalls(const Mesh& mesh, const std::vector<Patch>& walls)
+OffWalls::OffWalls(const Mesh& mesh, const std::vector<Patch>& walls,
+                   const solid::SimplexZone& zone)
     : at_wall(mesh), known(mesh), alpha(mesh) {
   for (const Patch& patch : walls)
-    for (Index f = patch.begin; f < patch.end; ++f) at_wall[mesh.owner[f]] = 1;
+    for (Index f = patch.begin; f < patch.end; ++f)
+      if (zone.has(mesh.owner[f])) at_wall[mesh.owner[f]] = 1;
   mesh.halo.update(at_wall);
   const auto is_at = [&](Index n) { return at_wall[n] > 0; };
   for (Index c = 0; c < mesh.n_owned; ++c)
@@ -59,6 +61,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
            const std::vector<Patch>& walls)
     : mesh(mesh_),
       weights(weights_),
+      zone(mesh),
       name(solid.name),
       G(solid.G),
       mu(solid.mu),
@@ -78,11 +81,10 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       band(mesh),
       kinematics(make(mesh, solid.kinematics)),
       elastic_force(mesh, weights, G),
-      semi_implicit_elasticity(mesh, weights),
+      semi_implicit_elasticity(mesh, weights, zone),
       grad(mesh),
       shape(solid.shape),
-      held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green &&
-           !solid::has_simplices(mesh)),
+      held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green && !zone.all()),
       hold_scratch(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
@@ -90,7 +92,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   hold_parts(physics);
-  if (extended() && mesh.dim == 3 && solid::has_simplices(mesh)) off_walls.emplace(mesh, walls);
+  if (extended() && mesh.dim == 3 && zone.any()) off_walls.emplace(mesh, walls, zone);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls);
@@ -102,8 +104,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
 
 void Body::hold_parts(const Physics& physics) {
   if (!law.B_itself()) T_of_law.emplace(mesh);
-  if (std::holds_alternative<solid::LogConformation>(kinematics) && solid::has_simplices(mesh))
-    interface_gradient.emplace(mesh), kink_profile.emplace(mesh);
+  if (std::holds_alternative<solid::LogConformation>(kinematics) && zone.any())
+    interface_gradient.emplace(mesh, zone), kink_profile.emplace(mesh);
   if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
@@ -161,7 +163,7 @@ void Body::hold_shape() {
   if (!held || gone != 0) return;
   const solid::ReferenceMap& m = *map();
   trust.clear();
-  for (const Index c : m.cells()) trust.push_back(m.trust(c));
+  for (const Index c : m.cells()) trust.push_back(zone.has(c) ? 0 : m.trust(c));
   shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);
@@ -225,7 +227,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (off_walls) off_walls->set(alpha, mesh);
+  if (off_walls) off_walls->set(fraction_of_strain(), mesh);
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   if (remembers()) memory->resume(alpha, grad);
   update_B();

@@ -51,11 +51,11 @@ struct TwoViscosities {
 /// the wall on one side alone, strains it the wrong way, and the edge of a flow divider crushes
 /// what is pressed on it.
 struct OffWalls {
-  /// Collective. walls: their patches. mesh must outlive it.
-  OffWalls(const Mesh& mesh, const std::vector<Patch>& walls);
+  /// Collective. walls: their patches; the cells of the zone count. mesh must outlive it.
+  OffWalls(const Mesh& mesh, const std::vector<Patch>& walls, const solid::SimplexZone& zone);
   /// Collective. Sets `alpha` from that of the solid.
   void set(const CellField<Real>& fraction, const Mesh& mesh);
-  CellField<Real> at_wall;        ///< 1 in cells with a face on a wall; owned and halo
+  CellField<Real> at_wall;        ///< 1 in cells of the zone with a face on a wall; owned and halo
   CellField<Real> known;          ///< 1 in cells off the walls, beside them, that know their strain
   CellField<Real> alpha;          ///< 0 in cells at a wall with such a cell beside them
   std::vector<Index> at, beside;  ///< owned: at a wall, and off it with a vertex of such a cell
@@ -104,9 +104,9 @@ struct Body {
   bool advects_pressure_jump() const {
     return std::holds_alternative<solid::LogConformation>(kinematics);
   }
-  /// Whether the face flux takes part in the solid's strain.
+  /// Whether the face flux takes part in the solid's strain, in the cells off the zone.
   bool strain_by_flux() const {
-    return !interface_gradient && std::holds_alternative<solid::LogConformation>(kinematics);
+    return !zone.all() && std::holds_alternative<solid::LogConformation>(kinematics);
   }
   /// The cells that `interface_gradient` works on; with that only.
   const Band& strain_cells() const { return std::get<solid::LogConformation>(kinematics).known(); }
@@ -123,8 +123,10 @@ struct Body {
   /// reaches in the second half has the fluid's velocity, and its L an error of (Co / 2) times the
   /// jump. On tetrahedra, cells at a wall do not.
   const CellField<Real>& strain_fraction() const {
-    return off_walls ? off_walls->alpha : strain_by_flux() ? alpha_mid : alpha;
+    return off_walls ? off_walls->alpha : fraction_of_strain();
   }
+  /// The same, with the cells at walls.
+  const CellField<Real>& fraction_of_strain() const { return strain_by_flux() ? alpha_mid : alpha; }
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
@@ -153,6 +155,7 @@ struct Body {
 
   const Mesh& mesh;            ///< of the solver
   const FaceWeights& weights;  ///< of the solver
+  solid::SimplexZone zone;     ///< the cells with the rules of triangles and tetrahedra
   std::string name;            ///< "" where there is one solid
   Real G, mu, rho;             ///< shear modulus, dynamic viscosity, density
   Vec3 weight;                 ///< body force per volume: rho a + (rho - rho_fluid) g

@@ -21,7 +21,9 @@ std::string elastic(const Body& body) {
   std::string what = "the map carried";
   if (!std::holds_alternative<solid::ReferenceMap>(body.kinematics)) {
     what = "log B carried and strained by ";
-    what += body.interface_gradient ? "a fit of one side of the surface" : "velocities and fluxes";
+    if (body.strain_by_flux()) what += "velocities and fluxes";
+    if (body.strain_by_flux() && body.interface_gradient) what += ", at triangles and tetrahedra ";
+    if (body.interface_gradient) what += "a fit of one side of the surface";
     if (body.remembers()) what += ", drawn to the map";
     if (!body.two_viscosities) what += "; strain of outermost cells bounded by the force's work";
   }

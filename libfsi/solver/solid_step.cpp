@@ -51,9 +51,15 @@ void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellFiel
   const solid::FlowSnapshot snapshot{flow.phi, flow.u, L, flow.pressure.cells, body.weights};
   u.assign(flow.u);
   for (const Index c : cells)
-    if (body.alpha_mid[c] >= solid::alpha_known)
+    if (body.alpha_mid[c] >= solid::alpha_known && !body.zone.has(c))
       u[c] = solid::velocity_of_fluxes(snapshot, body.alpha_mid, body.mesh, c);
   body.mesh.halo.update(u);
+}
+
+/// L = that of one side in the zone; the halo too.
+void take_zone(CellField<Tensor>& L, const CellField<Tensor>& of_one_side, const Body& body) {
+  for (Index c = 0; c < body.mesh.n_cells; ++c)
+    if (body.zone.has(c)) L[c] = of_one_side[c];
 }
 
 }  // namespace
@@ -179,6 +185,7 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
     if (i < 0) continue;
     const Index N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
     if (listed[P] == 0 || listed[N] == 0) continue;
+    if (!body.zone.has(P) && !body.zone.has(N)) continue;
     const Real lambda = f < mesh_.n_internal ? weights_.lambda[f] : 0;
     L_f_[i] = (1 - lambda) * L[P] + lambda * L[N];
     interface_L_f_.emplace_back(i, L_f_[i]);
@@ -202,14 +209,15 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const solid::Contact contact{flow.u_b, body.touched};
-  if (body.off_walls) body.off_walls->set(body.alpha, body.mesh);
-  const solid::CutFaces cuts{body.alpha_f, body.normal_f, by_flux ? body.alpha_mid : body.alpha};
+  const CellField<Real>& fraction = body.fraction_of_strain();
+  if (body.off_walls) body.off_walls->set(fraction, body.mesh);
+  const solid::CutFaces cuts{body.alpha_f, body.normal_f, fraction};
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
                                      .u = by_flux ? flow.by_flux->u : flow.u,
                                      .L = by_flux ? flow.by_flux->L : L,
                                      .stencil = flow.pressure.cells,
                                      .weights = body.weights,
-                                     .strain = one_sided ? &one_sided->strain() : nullptr,
+                                     .one_sided = one_sided ? &*one_sided : nullptr,
                                      .contact = &contact,
                                      .cuts = body.two_viscosities ? nullptr : &cuts,
                                      .wave_speed = std::sqrt(body.G / body.rho),
@@ -230,8 +238,9 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
           auto& kink = *body.kink_profile;
           kink.set(body.interface, body.weights);
           one_sided->apply(L, flow.u, flow.u_b,
-                           {body.alpha, kink.normal, kink.solid_side, kink.fluid_side}, cells);
-          one_sided->set_strain(L, flow.u, flow.u_b, body.alpha, cells);
+                           {fraction, kink.normal, kink.solid_side, kink.fluid_side}, cells);
+          one_sided->set_strain(L, flow.u, flow.u_b, fraction, cells);
+          if (by_flux) take_zone(flow.by_flux->L, L, body);
         }
         body.strain = k.transport(body.strain_fraction(), snapshot, body.dt, body.grad);
       },

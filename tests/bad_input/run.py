@@ -8,6 +8,7 @@ Every case is a driver, its arguments and what the sentence must hold; MPIEXEC..
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import cases  # noqa: E402
@@ -30,23 +31,23 @@ def good_meshes(meshes, folder):
 
 
 def judge(case, command, folder):
-    """What is wrong with the outcome of a case; nothing where it is as it must be."""
+    """The sentence of a case and what is wrong with its outcome; nothing where it is as it must be."""
     result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                             cwd=folder, errors="replace")
     said = [line for line in result.stderr.splitlines() if line.startswith("fsi: error: ")]
+    wrong = []
     if result.returncode != 2:
-        yield f"exit code {result.returncode}, not 2"
+        wrong.append(f"exit code {result.returncode}, not 2")
     if len(said) != 1:
-        yield f"{len(said)} sentences, not one"
+        wrong.append(f"{len(said)} sentences, not one")
     sentence = " ".join(said)
-    for fragment in case.fragments:
-        if fragment not in sentence:
-            yield f'"{fragment}" is not in the sentence'
+    wrong += [f'"{fragment}" is not in the sentence'
+              for fragment in case.fragments if fragment not in sentence]
     if "step " in result.stdout:
-        yield "a step was taken"
+        wrong.append("a step was taken")
     if "PETSC ERROR" in result.stderr:
-        yield "PETSc's own report was printed"
-    judge.sentence = sentence or result.stderr[-500:]
+        wrong.append("PETSc's own report was printed")
+    return sentence or result.stderr[-500:], wrong
 
 
 def main():
@@ -56,13 +57,19 @@ def main():
     os.makedirs(folder, exist_ok=True)
     launcher = sys.argv[6:] + [ranks] if ranks != "1" else []
     made = good_meshes(meshes, folder)
-    failures = 0
+    todo = []
     for case in cases.CASES[kind]:
-        arguments = case.arguments(made, folder)
-        command = launcher + [os.path.join(drivers, case.driver)] + arguments
-        wrong = list(judge(case, command, folder))
+        own = os.path.join(folder, case.name.replace(" ", "-").replace("/", "-"))
+        os.makedirs(own, exist_ok=True)
+        driver = os.path.join(drivers, case.driver)
+        todo.append((case, launcher + [driver] + case.arguments(made, own), own))
+    # mpiexec sleeps for a second once a rank has ended with an error: several cases at a time
+    with ThreadPoolExecutor(1 if ranks == "1" else 4) as pool:
+        outcomes = list(pool.map(lambda one: judge(*one), todo))
+    failures = 0
+    for (case, *_), (sentence, wrong) in zip(todo, outcomes):
         failures += bool(wrong)
-        print(f"{'FAIL' if wrong else 'ok  '} {case.name}: {judge.sentence}")
+        print(f"{'FAIL' if wrong else 'ok  '} {case.name}: {sentence}")
         for what in wrong:
             print(f"     {what}")
     print(f"{len(cases.CASES[kind])} cases on {ranks} ranks, {failures} not as they must be")

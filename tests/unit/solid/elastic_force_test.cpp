@@ -299,7 +299,8 @@ struct Stiff {
   CellField<Vec3> u;
   CellField<Tensor> L;
   FaceField<Real> kappa;
-  solid::SemiImplicitElasticity stiffness{s.mesh, s.weights};
+  solid::SimplexZone zone{s.mesh};
+  solid::SemiImplicitElasticity stiffness{s.mesh, s.weights, zone};
 };
 
 // kappa = 0.4 dt G lambda + |d| (rho G lambda)^(1/2) on the faces of the solid, of half of it at

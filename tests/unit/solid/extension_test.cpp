@@ -20,7 +20,13 @@ using test::largest;
 /// A tensor T known in a ball, `radius` wide.
 struct Known {
   Known(const test::BoxFile& box, Real radius, const std::function<SymTensor(const Vec3&)>& T_0)
-      : mesh(test::read_box(box)), alpha(mesh), T(mesh), slope(mesh), known(mesh), extension(mesh) {
+      : mesh(test::read_box(box)),
+        alpha(mesh),
+        T(mesh),
+        slope(mesh),
+        all(mesh, 1),
+        known(mesh),
+        extension(mesh) {
     for (Index c = 0; c < mesh.n_cells; ++c) {
       const Vec3 x = mesh.C[c] - Vec3{0.5, 0.5, mesh.dim == 3 ? 0.5 : 0};
       alpha[c] = norm(x) < radius ? 1 : 0;
@@ -33,6 +39,7 @@ struct Known {
   CellField<Real> alpha;
   CellField<SymTensor> T;
   CellField<solid::SymGradient> slope;
+  CellField<Real> all;
   Band known;
   solid::Extension extension;
 };
@@ -81,7 +88,7 @@ TEST(Extension, DoesNotExtrapolateNoise) {
 TEST(Extension, DampsNoLinearTensor) {
   for (const test::BoxFile& box : boxes) {
     Known run(box, 0.28, linear);
-    run.extension.fourth_difference_filter(run.T, run.slope, 10, 1e3, 1);
+    run.extension.fourth_difference_filter(run.T, run.slope, run.all, 10, 1e3, 1);
     for (Index c = 0; c < run.mesh.n_owned; ++c) {
       EXPECT_LE(largest(run.T[c] - run.alpha[c] * linear(run.mesh.C[c])), 1e-12);
       EXPECT_TRUE(run.slope[c].x == SymTensor{});
@@ -94,7 +101,7 @@ TEST(Extension, DampsNoLinearTensor) {
 TEST(Extension, DampsWhatAlternates) {
   for (const Real recovery : {1e3, 2.0}) {
     Known run({.n = {16, 16, 0}}, 0.4, checks);
-    run.extension.fourth_difference_filter(run.T, run.slope, 0.6, recovery, 0.5);
+    run.extension.fourth_difference_filter(run.T, run.slope, run.all, 0.6, recovery, 0.5);
     const Real left = 1 - 4.0 / 3 * (1 - std::exp(-0.1 * std::min(0.6 * 16, recovery) * 0.5));
     int inside = 0;
     for (Index c = 0; c < run.mesh.n_owned; ++c) {
@@ -112,7 +119,8 @@ TEST(Extension, DampsASmoothTensorByFourthDifferences) {
   const auto wave = [](const Vec3& x) { return SymTensor{std::sin(pi * x.x) * std::cos(x.y)}; };
   const auto change = [&](Index n) {
     Known run({.n = {n, n, 0}}, 0.4, wave);
-    run.extension.fourth_difference_filter(run.T, run.slope, 1.0 / static_cast<Real>(n), 1e3, 1);
+    run.extension.fourth_difference_filter(run.T, run.slope, run.all, 1.0 / static_cast<Real>(n),
+                                           1e3, 1);
     Real most = 0;
     for (Index c = 0; c < run.mesh.n_owned; ++c)
       if (norm(run.mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.2)

@@ -52,7 +52,7 @@ TEST(InterfaceGradient, IsExactForAQuadraticVelocityWithAKink) {
       return x + (inside * std::sin(9 * x.y + 5 * x.z) * x.x * (1 - x.x)) * Vec3{1, 0, 0};
     };
     const Mesh mesh = test::read_box(box);
-    EXPECT_TRUE(solid::has_simplices(mesh));
+    EXPECT_TRUE(solid::SimplexZone(mesh).all());
     CellField<Vec3> u(mesh);
     CellField<Real> alpha(mesh);
     for (Index c = 0; c < mesh.n_cells; ++c)
@@ -67,7 +67,8 @@ TEST(InterfaceGradient, IsExactForAQuadraticVelocityWithAKink) {
         cells.push_back(c);
     const CellField<Vec3> uncut(mesh);
     const CellField<Real> none(mesh);
-    solid::InterfaceGradient(mesh).apply(L, u, u_b, {alpha, uncut, none, none}, cells);
+    const solid::SimplexZone zone(mesh);
+    solid::InterfaceGradient(mesh, zone).apply(L, u, u_b, {alpha, uncut, none, none}, cells);
     Real worst = 0;
     for (const Index c : cells) {
       worst = std::max(worst, difference(L[c], in_plane(exact(mesh.C[c]), mesh.dim)));
@@ -100,7 +101,8 @@ TEST(InterfaceGradient, StrainsByTheSolidAlone) {
     std::iota(cells.begin(), cells.end(), 0);
     const CellField<Vec3> uncut(mesh);
     const CellField<Real> none(mesh);
-    solid::InterfaceGradient sided(mesh);
+    const solid::SimplexZone zone(mesh);
+    solid::InterfaceGradient sided(mesh, zone);
     sided.apply(L, u, u_b, {alpha, uncut, none, none}, cells);
     sided.set_strain(L, u, u_b, alpha, cells);
     Real worst = 0;
@@ -154,7 +156,8 @@ std::array<Real, 2> errors_beside_cuts(bool told) {
   std::iota(cells.begin(), cells.end(), 0);
   CellField<Tensor> L(mesh);
   L.fill(inner);
-  solid::InterfaceGradient sided(mesh);
+  const solid::SimplexZone zone(mesh);
+  solid::InterfaceGradient sided(mesh, zone);
   sided.apply(L, u, u_b, {alpha, told ? normal : uncut, solid_side, fluid_side}, cells);
   sided.set_strain(L, u, u_b, alpha, cells);
   Real worst = 0, strain = 0;
@@ -179,8 +182,8 @@ TEST(InterfaceGradient, TakesTheKinkOutOfCutCells) {
 }
 
 TEST(InterfaceGradient, QuadsAreNoSimplices) {
-  EXPECT_FALSE(solid::has_simplices(test::read_box({.n = {4, 4, 0}})));
-  EXPECT_FALSE(solid::has_simplices(test::read_box({.n = {2, 2, 2}})));
+  EXPECT_FALSE(solid::SimplexZone(test::read_box({.n = {4, 4, 0}})).any());
+  EXPECT_FALSE(solid::SimplexZone(test::read_box({.n = {2, 2, 2}})).any());
 }
 
 }  // namespace

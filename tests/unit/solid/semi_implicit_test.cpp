@@ -21,7 +21,8 @@ TEST(SemiImplicitElasticity, KappaIsAShareOfTheStressOfAStep) {
   const FaceField<Real> alpha_f(mesh, 0.5);
   const CellField<Vec3> u(mesh);
   const CellField<Tensor> L(mesh);
-  SemiImplicitElasticity elasticity(mesh, weights);
+  const SimplexZone zone(mesh);
+  SemiImplicitElasticity elasticity(mesh, weights, zone);
   FaceField<Real> kappa(mesh);
   CellField<Vec3> force(mesh);
   const Real G = 2, dt = 0.1;

@@ -116,7 +116,8 @@ TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
   const Mesh mesh = test::read_box(
       {.n = {n, n, n}, .simplex = true, .periodic = {"left", "right", "back", "front"}});
   CellField<Real> alpha(mesh);
-  OffWalls off(mesh, {mesh.patch("bottom")});
+  const solid::SimplexZone zone(mesh);
+  OffWalls off(mesh, {mesh.patch("bottom")}, zone);
   for (const bool thick : {true, false}) {
     const auto solid = [&](Index c) { return mesh.C[c].y < (thick ? 2.0 : 0.5) / n; };
     for (Index c = 0; c < mesh.n_cells; ++c) alpha[c] = solid(c) ? 1 : 0;
