@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 
@@ -132,7 +133,8 @@ int Orthogonal::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3
     compact.precondition(z_, r_);
     const auto [rz, rr] = products(r_, z_.owned());
     if (i == 0) enough = std::max(tolerance * std::sqrt(rr), absolute);
-    if (std::sqrt(rr) <= enough || i == most) return i;
+    if (std::sqrt(rr) <= enough) return i;
+    if (i == most || !std::isfinite(rr)) break;
     const Real beta = i == 0 ? 0 : rz / last;
     last = rz;
     for (Index c = 0; c < mesh_.n_cells; ++c) direction_[c] = z_[c] + beta * direction_[c];
@@ -147,7 +149,9 @@ int Orthogonal::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3
     for (Index f = 0; f < mesh_.n_faces; ++f) phi[f] -= a * flux_[f];
     for (Index c = 0; c < mesh_.n_owned; ++c) r_[c] -= a * Md_[c];
   }
-  return most;
+  throw Error(ErrorKind::numerics, "the orthogonal projection did not converge in " +
+                                       std::to_string(most) +
+                                       " iterations; take -flow_projection compact");
 }
 
 }  // namespace fsi::flow

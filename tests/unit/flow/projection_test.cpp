@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "libfsi/core/error.hpp"
 #include "tests/unit/support/box_file.hpp"
 
 namespace fsi::flow {
@@ -88,6 +90,22 @@ TEST(Projection, PressuresOfOpenings) {
         {worst, norm(channel.grad[c] - Vec3{1, 0, 0}), std::abs(channel.q[c] - mesh.C[c].x)});
   for (Index f = 0; f < mesh.n_faces; ++f) worst = std::max(worst, std::abs(phi[f]));
   EXPECT_LT(global_max(worst), 1e-12);
+}
+
+// Where the iterations of the orthogonal projection do not come to an end, that is an error.
+TEST(Projection, OrthogonalOneThatDoesNotConvergeIsTold) {
+  Channel channel(crooked, false);
+  const Mesh& mesh = channel.mesh;
+  const GradientStencil stencil(mesh, channel.weights,
+                                std::vector<bool>(mesh.patches.size(), true));
+  channel.projection.make_orthogonal(
+      stencil,
+      resolve({{"left", Wall{}}, {"right", Wall{}}, {"top", Wall{}}, {"bottom", Wall{}}}, mesh));
+  FaceField<Real> phi(mesh);
+  for (Index f = 0; f < mesh.n_internal; ++f) phi[f] = mesh.Cf[f].x * mesh.Sf[f].x;
+  EXPECT_NO_THROW(channel.projection.project(phi, channel.q, channel.grad, channel.q_b, 1e-14));
+  phi.fill(std::numeric_limits<Real>::quiet_NaN());
+  EXPECT_THROW(channel.projection.project(phi, channel.q, channel.grad, channel.q_b, 1e-14), Error);
 }
 
 }  // namespace
