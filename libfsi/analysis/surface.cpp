@@ -185,6 +185,19 @@ Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& a
   return surface;
 }
 
+Surface with_images(Surface surface, const std::vector<geometry::Mirror>& mirrors) {
+  for (const geometry::Mirror& mirror : mirrors) {
+    const Index n = surface.size();
+    for (Index k = 0; k < n; ++k) {
+      // the other way round, so that the normal of the image points outward too
+      std::array<Vec3, 3> corners{};
+      std::copy_n(surface.facet(k), surface.dim, corners.begin());
+      for (int i = surface.dim; i-- > 0;) surface.points.push_back(mirror.of_point(corners[i]));
+    }
+  }
+  return surface;
+}
+
 Real area(const Surface& surface) {
   Sum sum;
   for (Index k = 0; k < surface.size(); ++k) sum.add(surface.measure(k));

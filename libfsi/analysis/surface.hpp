@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/mesh/mesh.hpp"
 
 namespace fsi::analysis {
@@ -34,6 +35,10 @@ struct Surface {
 /// solid on a periodic seam is in one piece. The interpolation rounds the surface off: second
 /// order, 0.1 cells inside at a radius of three cells. alpha: owned and halo.
 Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about);
+
+/// The surface and its images in planes of symmetry, one after the other: that of the whole solid
+/// where the mesh holds a part of it.
+Surface with_images(Surface surface, const std::vector<geometry::Mirror>& mirrors);
 
 /// Collective. Area (length) of the surface of all ranks.
 Real area(const Surface& surface);

@@ -43,6 +43,18 @@ Moments shifted(const Moments& m, const Vec3& shift) {
   return out;
 }
 
+// About a point of the mirror x' = R x, R = I - 2 n n, so the second moments become R S R.
+Moments image(const Moments& m, const Mirror& mirror) {
+  const Moments at = shifted(m, -mirror.x);
+  const Vec3 x = mirror.of_direction({1, 0, 0}), y = mirror.of_direction({0, 1, 0}),
+             z = mirror.of_direction({0, 0, 1});
+  const Vec3 Sx = dot(at.second, x), Sy = dot(at.second, y), Sz = dot(at.second, z);
+  const Moments turned{at.volume,
+                       mirror.of_direction(at.first),
+                       {dot(x, Sx), dot(x, Sy), dot(x, Sz), dot(y, Sy), dot(y, Sz), dot(z, Sz)}};
+  return shifted(turned, mirror.x);
+}
+
 Moments moments(const Polytope& cell) {
   Moments m;
   const auto x = cell.points();

@@ -2,6 +2,7 @@
 // Volume, first and second moments of a cell and of the part of it below a plane.
 
 #include "libfsi/geometry/cut.hpp"
+#include "libfsi/geometry/mirror.hpp"
 
 namespace fsi::geometry {
 
@@ -14,6 +15,9 @@ struct Moments {
 
 /// The same body with the origin of the coordinates moved to -shift: every x becomes x + shift.
 Moments shifted(const Moments& m, const Vec3& shift);
+
+/// Of the body's image in a mirror.
+Moments image(const Moments& m, const Mirror& mirror);
 
 /// Moments of the whole cell.
 Moments moments(const Polytope& cell);

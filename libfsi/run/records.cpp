@@ -231,7 +231,11 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh, ahead);
   started_ = tracker_.started ? 1 : 0;
   const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
-  const analysis::Orientation o = analysis::orientation(surface, tracker_.home, orientation_);
+  const std::vector<geometry::Mirror>& mirrors = body.filled.cut_by;
+  const analysis::Surface whole = analysis::with_images(surface, mirrors);
+  Vec3 middle = tracker_.home;  // of the whole solid
+  for (const geometry::Mirror& mirror : mirrors) middle = mirror.foot(middle);
+  const analysis::Orientation o = analysis::orientation(whole, middle, orientation_);
   turned_ += analysis::turn_about_z(orientation_.n, o.n);
   orientation_ = o;
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
@@ -266,7 +270,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;
-  add_ring(row, analysis::ring(surface, tracker_.home, frame));
+  add_ring(row, analysis::ring(whole, middle, frame));
   return row;
 }
 

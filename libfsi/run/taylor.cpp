@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "libfsi/analysis/motion.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -24,6 +25,17 @@ geometry::Moments solid_part(geometry::Polytope& cell, const Body& body, Index c
   return m;
 }
 
+/// A part of the solid and what moves it.
+struct Part {
+  geometry::Moments moments;
+  Vec3 flow;
+};
+
+void add_images(std::vector<Part>& parts, const geometry::Mirror& mirror) {
+  for (std::size_t i = 0, n = parts.size(); i < n; ++i)
+    parts.push_back({image(parts[i].moments, mirror), mirror.of_direction(parts[i].flow)});
+}
+
 /// Half-axes of the ellipse: a^2 and b^2 are as the eigenvalues of ((xx xy) (xy yy)).
 Taylor ellipse(Real xx, Real xy, Real yy) {
   const Real mean = (xx + yy) / 2, half = std::hypot((xx - yy) / 2, xy);
@@ -38,24 +50,28 @@ Taylor taylor(const Body& body, const CellField<Vec3>& u, const Vec3& about, Rea
   const Mesh& mesh = body.mesh;
   geometry::Polytope cell(mesh.dim);
   std::array<Sum, 11> sums;
+  std::vector<Part> parts;  // of a cell: its solid and the images
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (body.alpha[c] == 0) continue;
     const Vec3 x =
         mesh.C[c] + mesh.translation[analysis::nearest_image(mesh, mesh.C[c], about)] - about;
-    const geometry::Moments m = shifted(solid_part(cell, body, c), x);
-    const Vec3 flow = later * u[c];
-    const std::array<Real, 11> items{m.volume,
-                                     m.first.x,
-                                     m.first.y,
-                                     m.second.xx,
-                                     m.second.xy,
-                                     m.second.yy,
-                                     m.volume * flow.x,
-                                     m.volume * flow.y,
-                                     2 * m.first.x * flow.x,
-                                     m.first.x * flow.y + m.first.y * flow.x,
-                                     2 * m.first.y * flow.y};
-    for (std::size_t i = 0; i < items.size(); ++i) sums[i].add(items[i]);
+    parts.assign({{shifted(solid_part(cell, body, c), x), later * u[c]}});
+    for (const geometry::Mirror& mirror : body.filled.cut_by)
+      add_images(parts, {mirror.x - about, mirror.n});
+    for (const auto& [m, flow] : parts) {
+      const std::array<Real, 11> items{m.volume,
+                                       m.first.x,
+                                       m.first.y,
+                                       m.second.xx,
+                                       m.second.xy,
+                                       m.second.yy,
+                                       m.volume * flow.x,
+                                       m.volume * flow.y,
+                                       2 * m.first.x * flow.x,
+                                       m.first.x * flow.y + m.first.y * flow.x,
+                                       2 * m.first.y * flow.y};
+      for (std::size_t i = 0; i < items.size(); ++i) sums[i].add(items[i]);
+    }
   }
   std::array<Real, 11> t{};
   Sum::totals(t, sums);

@@ -14,7 +14,8 @@ struct Taylor {
 /// Collective. From the moments of the solid behind its planes, moved on by `later`. They are exact
 /// for the planes and of second order in the cell size for the solid:
 ///   dM/dt = integral of u x + x u, M = integral of x x.
-/// u: of the cells. about: a point in the solid next to which its parts are placed, near the
+/// Where planes of symmetry cut the solid, of the whole of it, with its images. u: of the cells.
+/// about: a point in the solid next to which its parts are placed, near the
 /// centroid.
 Taylor taylor(const Body& body, const CellField<Vec3>& u, const Vec3& about, Real later);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/shapes/shapes.hpp"
 
@@ -29,6 +30,9 @@ struct Filled {
   /// `mirrors`. It tells how far the solid is from the boundary, and is negative where it sticks
   /// out of the mesh and `volume` misses a part of it.
   Real clearance = 0;
+  /// Those of `mirrors` that are plane and cut the solid: the whole solid is what is in the mesh,
+  /// and its images.
+  std::vector<geometry::Mirror> cut_by{};
 };
 
 /// Collective. alpha = part of each cell inside the shape (negative distance), in [0, 1], exactly 0

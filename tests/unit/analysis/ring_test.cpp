@@ -100,6 +100,37 @@ TEST(Ring, TorusOfVolumeFractions) {
   EXPECT_NEAR(r.bending_prime, 0, 0.05);
 }
 
+// Half a ring on a plane of symmetry is measured as the whole one.
+TEST(Ring, OnAPlaneOfSymmetry) {
+  const Mesh mesh = test::read_box({{32, 32, 16}, {1, 1, 0.5}});
+  CellField<Real> alpha(mesh);
+  const Real psi = pi / 4;
+  const vof::Filled filled = vof::fill(
+      alpha, mesh,
+      shapes::translate(shapes::rotate(shapes::torus(0.3, 0.1), {0, 0, 1}, psi), {0.5, 0.5, 0}),
+      {mesh.patch("back"), mesh.patch("left")}, {1e-4, 0, 4});
+  ASSERT_EQ(filled.cut_by.size(), 1U);  // the other plane does not cut it
+  EXPECT_NEAR(std::abs(filled.cut_by[0].n.z), 1, 1e-12);
+  EXPECT_NEAR(filled.cut_by[0].x.z, 0, 1e-12);
+  const Vec3 of_half{0.5, 0.5, 0.2}, centre = filled.cut_by[0].foot(of_half);
+  const Surface half = isosurface(alpha, mesh, of_half), s = with_images(half, filled.cut_by);
+  EXPECT_NEAR(area(s), 2 * area(half), 1e-12);
+  // the surface lies 0.1 cells inside at a radius of three
+  EXPECT_NEAR(area(s), 4 * pi * pi * 0.3 * 0.1, 0.03 * area(s));
+  EXPECT_NEAR(enclosed(s), 2 * pi * pi * 0.3 * 0.01, 0.06 * enclosed(s));
+  const Orientation o = orientation(s, centre);
+  EXPECT_NEAR(angle_to_x(o.n), 45, 0.1);
+  const Ring r = ring(s, centre, ring_frame(o.n));
+  for (const Ellipse* e : {&r.forward, &r.back, &r.right, &r.left}) {
+    EXPECT_NEAR(e->aspect(), 1, 0.015);
+    EXPECT_NEAR(e->x, 0.3, 3e-3);
+    EXPECT_NEAR(e->y, 0, 2e-3);
+  }
+  EXPECT_NEAR(r.outer.aspect(), 1, 1e-2);
+  EXPECT_NEAR(r.inner.aspect(), 1, 1e-2);
+  EXPECT_NEAR(r.bending_prime, 0, 1e-6);
+}
+
 TEST(Ring, NothingWithoutSurface) {
   const Ring r = ring(Surface{3, {}}, {}, ring_frame({1, 0, 0}));
   EXPECT_EQ(r.forward.aspect(), 0);

@@ -40,6 +40,23 @@ TEST(Taylor, Ellipsoid) {
   EXPECT_LE(e.angle, 0.1);
 }
 
+// Half an ellipse, and a quarter, on planes of symmetry: that of the whole one.
+TEST(Taylor, OnPlanesOfSymmetry) {
+  const Mesh mesh = test::box_mesh({.n = {48, 48, 0}});
+  const FaceWeights weights(mesh);
+  for (const Real x : {0.5, 0.0}) {
+    const shapes::Shape shape =
+        shapes::translate(shapes::ellipsoid({0.36, 0.24, shapes::infinity}), {x, 0, 0});
+    std::vector<Patch> mirrors{mesh.patch("bottom")};
+    if (x == 0) mirrors.push_back(mesh.patch("left"));
+    const Body body(mesh, weights, {.shape = shape, .G = 1}, {}, mirrors);
+    EXPECT_EQ(body.filled.cut_by.size(), mirrors.size());
+    const Taylor t = taylor(body, CellField<Vec3>(mesh), {x, 0.1, 0}, 0);
+    EXPECT_NEAR(t.deformation, 0.2, 1e-3);
+    EXPECT_NEAR(t.angle, 0, 0.1);
+  }
+}
+
 // In the flow u = (y, 0) the moments change as those of x + t y do.
 TEST(Taylor, MovedOnWithTheFlow) {
   const Mesh mesh = test::box_mesh({.n = {64, 64, 0}});
