@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -134,7 +135,9 @@ int Orthogonal::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3
     const auto [rz, rr] = products(r_, z_.owned());
     if (i == 0) enough = std::max(tolerance * std::sqrt(rr), absolute);
     if (std::sqrt(rr) <= enough) return i;
-    if (i == most || !std::isfinite(rr)) break;
+    if (!std::isfinite(rr))
+      throw Error(ErrorKind::numerics, "the flux to be projected is not finite");
+    if (i == most) break;
     const Real beta = i == 0 ? 0 : rz / last;
     last = rz;
     for (Index c = 0; c < mesh_.n_cells; ++c) direction_[c] = z_[c] + beta * direction_[c];

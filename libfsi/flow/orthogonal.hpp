@@ -44,7 +44,7 @@ class Orthogonal {
 
   /// Takes the flux U(G q) from phi. On return q and grad_q = G q (owned and halo) leave a
   /// tenth of its divergence or `absolute`, in the norm over the cells. Returns the iterations.
-  /// Errors: Error{numerics} where a hundred of them are not enough.
+  /// Errors: Error{numerics} where a hundred of them are not enough, or phi is not finite.
   int project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
               LinearSystem& compact, Real absolute);
   /// What is left of the divergence, as a part.

@@ -92,8 +92,8 @@ TEST(Projection, PressuresOfOpenings) {
   EXPECT_LT(global_max(worst), 1e-12);
 }
 
-// Where the iterations of the orthogonal projection do not come to an end, that is an error.
-TEST(Projection, OrthogonalOneThatDoesNotConvergeIsTold) {
+// The iterations of the orthogonal projection end with an error where the flux is no number.
+TEST(Projection, OrthogonalOneRefusesAFluxThatIsNoNumber) {
   Channel channel(crooked, false);
   const Mesh& mesh = channel.mesh;
   const GradientStencil stencil(mesh, channel.weights,
