@@ -51,6 +51,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     checkpoints_.clear();
     checkpoint_.resume(0);  // the start needs none
   }
+  tell_of_images(solver_);
   first_step_ = row_step_ = solver_.state().step;
   forecast_ = Forecast(solver_.state().t);
   saving([this] { open(); });

@@ -192,8 +192,14 @@ Real shape_energy(const Body& body) {
   const solid::ReferenceMap* map = body.map();
   if (map == nullptr) return 0;
   CellField<SymTensor> B(body.mesh, identity());
-  for (Index c = 0; c < body.mesh.n_owned; ++c)
-    if (body.alpha[c] > 0 && map->is_set[c] > 0) B[c] = map->B(c, body.alpha[c]);
+  for (Index c = 0; c < body.mesh.n_owned; ++c) {
+    if (body.alpha[c] == 0) continue;
+    if (body.zone.has(c)) {
+      B[c] = body.B_of(c);
+    } else if (map->is_set[c] > 0) {
+      B[c] = map->B(c, body.alpha[c]);
+    }
+  }
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
@@ -231,7 +237,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh, ahead);
   started_ = tracker_.started ? 1 : 0;
   const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
-  const std::vector<geometry::Mirror>& mirrors = body.filled.cut_by;
+  const std::vector<geometry::Mirror>& mirrors = body.filled.cut_by.planes;
   const analysis::Surface whole = analysis::with_images(surface, mirrors);
   Vec3 middle = tracker_.home;  // of the whole solid
   for (const geometry::Mirror& mirror : mirrors) middle = mirror.foot(middle);

@@ -56,7 +56,7 @@ Taylor taylor(const Body& body, const CellField<Vec3>& u, const Vec3& about, Rea
     const Vec3 x =
         mesh.C[c] + mesh.translation[analysis::nearest_image(mesh, mesh.C[c], about)] - about;
     parts.assign({{shifted(solid_part(cell, body, c), x), later * u[c]}});
-    for (const geometry::Mirror& mirror : body.filled.cut_by)
+    for (const geometry::Mirror& mirror : body.filled.cut_by.planes)
       add_images(parts, {mirror.x - about, mirror.n});
     for (const auto& [m, flow] : parts) {
       const std::array<Real, 11> items{m.volume,

@@ -46,6 +46,15 @@ std::string place_of_strain(const Solver& solver) {
 
 }  // namespace
 
+void tell_of_images(const Solver& solver) {
+  for (const Body& body : solver.bodies())
+    if (body.filled.cut_by.odd)
+      say("notice",
+          name_of(body) +
+              " is cut by planes of symmetry that are not all flat and at right angles: "
+              "its directions, sections and deformation are those of the part in the mesh");
+}
+
 std::string Watch::energy(Real made, const Solver& solver) {
   constexpr Real odd = 0.1, wrong = 0.5;
   if (made < odd || (told_of_energy_ && made <= wrong)) return "";

@@ -9,6 +9,9 @@
 
 namespace fsi {
 
+/// A notice of each solid that is cut by planes of symmetry whose images do not make it whole.
+void tell_of_images(const Solver& solver);
+
 /// Tells each of these once a run, on rank 0.
 class Watch {
  public:
@@ -23,8 +26,7 @@ class Watch {
   void leaving(const Solver& solver);
   /// A warning when a solid is strained past what the mesh resolves, and when the energy of its
   /// stress is not that of its shape. Another when it falls into more pieces than it had when this
-  /// was first
-  /// asked.
+  /// was first asked.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound);
 
  private:

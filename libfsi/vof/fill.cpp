@@ -245,41 +245,6 @@ Real clearance(const Mesh& mesh, Images& distance, const std::vector<Patch>& mir
   return global_min(least);
 }
 
-/// Whether the surface of the shape crosses the patch; what only touches it does not.
-bool crosses(const Mesh& mesh, Images& distance, const Patch& patch) {
-  const Real touching = 1e-6 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
-  Real least = shapes::infinity;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    least = std::min(least, distance.select(mesh.Cf[f], 0));
-    for (const Index p : mesh.face_points[f])
-      least = std::min(least, distance.select(mesh.points[p], 0));
-  }
-  return global_min(least) < -touching;
-}
-
-std::vector<geometry::Mirror> cutting(const Mesh& mesh, Images& distance,
-                                      const std::vector<Patch>& mirrors) {
-  std::vector<geometry::Mirror> found;
-  for (const Patch& patch : mirrors) {
-    std::array<Sum, 7> sums;  // |S|, S, |S| x
-    for (Index f = patch.begin; f < patch.end; ++f) {
-      const Real area = norm(mesh.Sf[f]);
-      sums[0].add(area);
-      for (std::size_t i = 0; i < 3; ++i)
-        sums[1 + i].add(mesh.Sf[f][static_cast<int>(i)]),
-            sums[4 + i].add(area * mesh.Cf[f][static_cast<int>(i)]);
-    }
-    std::array<Real, 7> t{};
-    Sum::totals(t, sums);
-    const Vec3 S{t[1], t[2], t[3]};
-    constexpr Real flat = 1e-6;  // part of the area that its sum as a vector may lack
-    if (!(t[0] > 0) || norm(S) < (1 - flat) * t[0]) continue;
-    if (crosses(mesh, distance, patch))
-      found.push_back({{t[4] / t[0], t[5] / t[0], t[6] / t[0]}, S / norm(S)});
-  }
-  return found;
-}
-
 }  // namespace
 
 Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
@@ -302,7 +267,8 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
   std::array<Real, 4> totals{};
   Sum::totals(totals, sums);
   const Real error = std::abs(totals[1]) + std::sqrt(totals[2]) + totals[3];
-  return {totals[0], error, clearance(mesh, distance, mirrors), cutting(mesh, distance, mirrors)};
+  const auto at = [&](const Vec3& x) { return distance.select(x, 0); };
+  return {totals[0], error, clearance(mesh, distance, mirrors), cutting_planes(at, mesh, mirrors)};
 }
 
 }  // namespace fsi::vof

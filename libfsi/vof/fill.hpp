@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "libfsi/field/field.hpp"
-#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/shapes/shapes.hpp"
+#include "libfsi/vof/symmetry.hpp"
 
 namespace fsi::vof {
 
@@ -30,9 +30,9 @@ struct Filled {
   /// `mirrors`. It tells how far the solid is from the boundary, and is negative where it sticks
   /// out of the mesh and `volume` misses a part of it.
   Real clearance = 0;
-  /// Those of `mirrors` that are plane and cut the solid: the whole solid is what is in the mesh,
-  /// and its images.
-  std::vector<geometry::Mirror> cut_by{};
+  /// The planes of `mirrors` that cut the solid: the whole solid is what is in the mesh, and its
+  /// images.
+  CuttingPlanes cut_by{};
 };
 
 /// Collective. alpha = part of each cell inside the shape (negative distance), in [0, 1], exactly 0

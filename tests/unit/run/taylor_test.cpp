@@ -50,7 +50,7 @@ TEST(Taylor, OnPlanesOfSymmetry) {
     std::vector<Patch> mirrors{mesh.patch("bottom")};
     if (x == 0) mirrors.push_back(mesh.patch("left"));
     const Body body(mesh, weights, {.shape = shape, .G = 1}, {}, mirrors);
-    EXPECT_EQ(body.filled.cut_by.size(), mirrors.size());
+    EXPECT_EQ(body.filled.cut_by.planes.size(), mirrors.size());
     const Taylor t = taylor(body, CellField<Vec3>(mesh), {x, 0.1, 0}, 0);
     EXPECT_NEAR(t.deformation, 0.2, 1e-3);
     EXPECT_NEAR(t.angle, 0, 0.1);

@@ -44,6 +44,24 @@ TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
   }
 }
 
+// A disc between two parallel planes has no end of images; in a corner it has three.
+TEST(Watch, ASolidWithoutAWholeIsTold) {
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}});
+  const auto said = [&mesh](Real radius, const Vec3& at) {
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.1},
+        {.conditions = {{"left", Slip{}}, {"right", Wall{}}, {"bottom", Slip{}}, {"top", Slip{}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(radius), at), .G = 1, .mu = 0.1});
+    testing::internal::CaptureStderr();
+    tell_of_images(solver);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(0.4, {0, 0, 0}), "");
+  const std::string text = said(0.6, {0, 0.5, 0});
+  EXPECT_EQ(text.find("at right angles") != std::string::npos, rank() == 0) << text;
+}
+
 TEST(Watch, RoundOffIsNoSolidThatLeaves) {
   Disc disc;
   Body& body = disc.solver.bodies().front();

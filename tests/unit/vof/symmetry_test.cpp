@@ -1,0 +1,59 @@
+#include "libfsi/vof/symmetry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "libfsi/shapes/shapes.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi::vof {
+namespace {
+
+CuttingPlanes cut(const Mesh& mesh, const shapes::Shape& shape, const std::vector<Patch>& mirrors) {
+  return cutting_planes([&shape](const Vec3& x) { return shape(x); }, mesh, mirrors);
+}
+
+/// One patch of the faces of two that follow each other.
+Patch joined(const Patch& a, const Patch& b) {
+  Patch both = a;
+  both.begin = std::min(a.begin, b.begin), both.end = std::max(a.end, b.end);
+  EXPECT_EQ(both.end - both.begin, a.end - a.begin + b.end - b.begin);
+  return both;
+}
+
+// The planes are found by their faces, whatever patches these are of.
+TEST(CuttingPlanes, OfOnePatchOrTwo) {
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}});
+  const Patch left = mesh.patch("left"), right = mesh.patch("right"), bottom = mesh.patch("bottom"),
+              top = mesh.patch("top");
+  const shapes::Shape corner = shapes::sphere(0.4),
+                      between = shapes::translate(shapes::sphere(0.6), {0.5, 0.5, 0});
+  for (const CuttingPlanes& c : {cut(mesh, corner, {left, right, bottom, top}),
+                                 cut(mesh, corner, {joined(left, right), joined(bottom, top)})}) {
+    EXPECT_FALSE(c.odd);
+    ASSERT_EQ(c.planes.size(), 2U);
+    for (const geometry::Mirror& m : c.planes) EXPECT_NEAR(norm(m.foot({0, 0, 0})), 0, 1e-14);
+  }
+  for (const CuttingPlanes& c :
+       {cut(mesh, between, {left, right}), cut(mesh, between, {joined(left, right)})}) {
+    EXPECT_TRUE(c.odd) << "parallel planes give images without end";
+    EXPECT_TRUE(c.planes.empty());
+  }
+  // what touches is not cut
+  const shapes::Shape touching = shapes::translate(shapes::sphere(0.25), {0.25, 0.5, 0});
+  const CuttingPlanes none = cut(mesh, touching, {left, right, bottom, top});
+  EXPECT_FALSE(none.odd);
+  EXPECT_TRUE(none.planes.empty());
+}
+
+TEST(CuttingPlanes, ACurvedPatchIsOdd) {
+  const auto bent = [](const Vec3& x) { return Vec3{x.x, x.y + 0.1 * x.x * x.x, x.z}; };
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .moved = bent});
+  const CuttingPlanes c =
+      cut(mesh, shapes::translate(shapes::sphere(0.3), {0.5, 0, 0}), {mesh.patch("bottom")});
+  EXPECT_TRUE(c.odd);
+}
+
+}  // namespace
+}  // namespace fsi::vof
