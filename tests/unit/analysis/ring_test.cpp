@@ -113,7 +113,8 @@ TEST(Ring, OnAPlaneOfSymmetry) {
   EXPECT_NEAR(std::abs(filled.cut_by.planes[0].n.z), 1, 1e-12);
   EXPECT_NEAR(filled.cut_by.planes[0].x.z, 0, 1e-12);
   const Vec3 of_half{0.5, 0.5, 0.2}, centre = filled.cut_by.planes[0].foot(of_half);
-  const Surface half = isosurface(alpha, mesh, of_half), s = with_images(half, filled.cut_by.planes);
+  const Surface half = isosurface(alpha, mesh, of_half),
+                s = with_images(half, filled.cut_by.planes);
   EXPECT_NEAR(area(s), 2 * area(half), 1e-12);
   // the surface lies 0.1 cells inside at a radius of three
   EXPECT_NEAR(area(s), 4 * pi * pi * 0.3 * 0.1, 0.03 * area(s));
