@@ -8,11 +8,16 @@ namespace fsi::solid {
 Tensor MapExtension::regression(Index c, int up_to_ring) const {
   SymTensor M;
   Tensor R;
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (!rings_.within(up_to_ring, k)) return;
+  const auto add = [&](const Vec3& d, const Vec3& r) {
     const Real w = 1 / norm2(r);
     M += w * square(r);
-    R += w * outer(item_[k].d - item_[c].d, r);
+    R += w * outer(d - item_[c].d, r);
+  };
+  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
+    if (rings_.within(up_to_ring, k)) add(item_[k].d, r);
+  });
+  for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (rings_.within(up_to_ring, k)) add(image(item_[k].d, n), r);
   });
   return M == SymTensor{} ? Tensor{} : dot(R, raised_inverse(M, mesh_.dim));
 }
@@ -24,13 +29,17 @@ MapExtension::Item MapExtension::fit(Index c, int ring) const {
   Vec3 m, e;
   SymTensor M;
   Tensor R;
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (!rings_.within(ring - 1, k)) return;
-    const Item& item = item_[k];
+  const auto add = [&](const Item& item, const Vec3& r) {
     const Real w = 1 / norm2(r);
     W += w, m += w * r, e += w * item.d;
     M += w * square(r) + identity();
     R += w * outer(item.d, r) + item.g;
+  };
+  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
+    if (rings_.within(ring - 1, k)) add(item_[k], r);
+  });
+  for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (rings_.within(ring - 1, k)) add({image(item_[k].d, n), image(item_[k].g, n)}, r);
   });
   m *= 1 / W, e *= 1 / W;
   const Tensor g = dot(R + -W * outer(e, m), raised_inverse(M - W * square(m), mesh_.dim));

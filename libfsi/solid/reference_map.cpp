@@ -21,7 +21,8 @@ Real largest_rate(const Tensor& L) {
 
 }  // namespace
 
-ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>& walls)
+ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>& walls,
+                           const std::vector<Patch>& mirrors)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
@@ -29,7 +30,7 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       at_wall_(mesh),
       stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
       known_(mesh),
-      extension_(mesh),
+      extension_(mesh, SymmetryFaces(mesh, mirrors)),
       filled_(mesh),
       slope_(mesh) {
   for (const Patch& patch : walls)
@@ -76,6 +77,11 @@ Tensor ReferenceMap::gradient(Index c) const {
     return extension_.regression(c);
   for (const Index f : mesh_.cell_faces[c]) {
     const Index n = beyond(mesh_, f, c);
+    if (extension_.symmetry().has(f, mesh_)) {
+      const Vec3& S = mesh_.Sf[f];  // d_f = d_c - (d_c . n) n, half way to the image
+      sum += outer((-dot(d[c], S) / norm2(S)) * S, (1 / mesh_.V[c]) * S);
+      continue;
+    }
     if (n < 0) return extension_.regression(c);
     sum += outer(d[n] - d[c], stencil_.weight(f, mesh_.owner[f] == c));
   }

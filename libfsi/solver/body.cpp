@@ -10,9 +10,10 @@
 namespace fsi {
 namespace {
 
-Kinematics make(const Mesh& mesh, KinematicsKind kind) {
+Kinematics make(const Mesh& mesh, KinematicsKind kind, const std::vector<Patch>& mirrors) {
   if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
-  if (kind == KinematicsKind::reference_map) return solid::ReferenceMap(mesh);
+  if (kind == KinematicsKind::reference_map)
+    return solid::ReferenceMap(mesh, solid::ReferenceMap::Role::alone, {}, mirrors);
   return solid::LogConformation(mesh);
 }
 
@@ -79,7 +80,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       reconstruct_scratch(mesh),
       advect_scratch(mesh),
       band(mesh),
-      kinematics(make(mesh, solid.kinematics)),
+      kinematics(make(mesh, solid.kinematics, mirrors)),
       elastic_force(mesh, weights, G),
       semi_implicit_elasticity(mesh, weights, zone),
       grad(mesh),
@@ -87,15 +88,13 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green && !zone.all()),
       hold_scratch(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
-      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      symmetry(mesh, mirrors),
       specks(static_cast<std::size_t>(mesh.n_owned)) {
-  for (const Patch& patch : mirrors)
-    for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   hold_parts(physics);
   if (extended() && mesh.dim == 3 && zone.any()) off_walls.emplace(mesh, walls, zone);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
-    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls);
+    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls, mirrors);
     memory->set_undeformed(alpha);
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);

@@ -8,6 +8,7 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/io/checkpoint.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/body_force.hpp"
 #include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
@@ -200,7 +201,7 @@ struct Body {
   vof::Filled filled;    ///< volume and its error at the start
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
-  std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry
+  SymmetryFaces symmetry;         ///< the faces on planes of symmetry
   std::vector<char> specks;       ///< [n_owned] scratch
   Real volume_out = 0;            ///< what left the mesh or was taken out after it
   Real residue = 0;               ///< of this: what was taken out at the end, by this program

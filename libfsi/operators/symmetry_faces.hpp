@@ -1,0 +1,56 @@
+#pragma once
+// What a cell at a plane of symmetry sees beyond it.
+
+#include <cmath>
+#include <vector>
+
+#include "libfsi/mesh/mesh.hpp"
+#include "libfsi/operators/stencil.hpp"
+
+namespace fsi {
+
+/// The faces of the boundary on planes of symmetry.
+struct SymmetryFaces {
+  /// patches: those of the planes.
+  SymmetryFaces(const Mesh& mesh, const std::vector<Patch>& patches)
+      : is(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+    for (const Patch& patch : patches)
+      for (Index f = patch.begin; f < patch.end; ++f) is[f - mesh.n_internal] = 1;
+  }
+
+  /// Whether f is one of them.
+  bool has(Index f, const Mesh& mesh) const {
+    return f >= mesh.n_internal && is[f - mesh.n_internal] != 0;
+  }
+
+  std::vector<char> is;  ///< [n_boundary] 1 on planes of symmetry, else 0
+};
+
+/// Image of a vector in a plane with unit normal n: R v, R = I - 2 n (x) n.
+inline Vec3 image(const Vec3& v, const Vec3& n) { return v - (2 * dot(v, n)) * n; }
+/// Image of the gradient of a field of vectors: R g R.
+inline Tensor image(const Tensor& g, const Vec3& n) {
+  const Vec3 x = image(Vec3{g.xx, g.xy, g.xz}, n), y = image(Vec3{g.yx, g.yy, g.yz}, n),
+             z = image(Vec3{g.zx, g.zy, g.zz}, n);  // rows of g R
+  const Tensor gR{x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+  return gR + outer(-2 * n, n.x * x + n.y * y + n.z * z);
+}
+
+/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, where
+/// they lie at a plane of symmetry of c: n its normal, r from the centre of c to that of the image
+/// of k. A cell lies at the plane when its centre is not twice as far from it as that of c.
+template <class Function>
+void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
+  for (const Index face : mesh.cell_faces[c]) {
+    if (!symmetry.has(face, mesh)) continue;
+    const Vec3 n = mesh.Sf[face] / norm(mesh.Sf[face]);
+    const Real own = dot(mesh.Cf[face] - mesh.C[c], n);
+    f(c, (2 * own) * n, n);
+    for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& r) {
+      const Real height = own - dot(r, n);
+      if (height < 2 * own) f(k, r + (2 * height) * n, n);
+    });
+  }
+}
+
+}  // namespace fsi
