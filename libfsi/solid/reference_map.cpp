@@ -19,6 +19,14 @@ Real largest_rate(const Tensor& L) {
                    std::abs(L.xy + L.yx), std::abs(L.xz + L.zx), std::abs(L.yz + L.zy)});
 }
 
+/// Which patches of the mesh these are.
+std::vector<bool> among(const std::vector<Patch>& patches, const Mesh& mesh) {
+  std::vector<bool> is;
+  for (const Patch& patch : mesh.patches)
+    is.push_back(std::ranges::find(patches, patch.name, &Patch::name) != patches.end());
+  return is;
+}
+
 }  // namespace
 
 ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>& walls,
@@ -28,7 +36,7 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       mesh_(mesh),
       beside_psi_(role == Role::beside_psi),
       at_wall_(mesh),
-      stencil_(mesh, FaceWeights(mesh), std::vector<bool>(mesh.patches.size(), false)),
+      stencil_(mesh, FaceWeights(mesh), among(mirrors, mesh)),
       known_(mesh),
       extension_(mesh, SymmetryFaces(mesh, mirrors)),
       filled_(mesh),
@@ -79,7 +87,7 @@ Tensor ReferenceMap::gradient(Index c) const {
     const Index n = beyond(mesh_, f, c);
     if (extension_.symmetry().has(f, mesh_)) {
       const Vec3& S = mesh_.Sf[f];  // d_f = d_c - (d_c . n) n, half way to the image
-      sum += outer((-dot(d[c], S) / norm2(S)) * S, (1 / mesh_.V[c]) * S);
+      sum += outer((-dot(d[c], S) / norm2(S)) * S, stencil_.weight(f, true));
       continue;
     }
     if (n < 0) return extension_.regression(c);
