@@ -2,12 +2,15 @@
 // R(x) = 0.5 - 0.125 (1 + cos(2 pi (x - 3) / throat)) for |x - 3| < throat / 2.
 // Patches inlet (x = 0), outlet (x = 6), wall. n cells per diameter, along the axis 1 / n long.
 // Hexes of an O-grid (n a multiple of 4); simplex 1: tets. Every node of the wall lies on it.
+// half 1: only z > 0.5, patch symmetry on the plane z = 0.5.
 DefineConstant[
   n = {16, Name "n"},
   throat = {6, Name "throat"},
+  half = {0, Name "half"},
   simplex = {0, Name "simplex"}
 ];
 length = 6;
+symmetry[] = {};
 
 If (simplex)
   SetFactory("OpenCASCADE");
@@ -58,13 +61,17 @@ If (simplex)
   section = news;
   Plane Surface(section) = {loop};
   half1[] = Extrude {{1, 0, 0}, {0, 0.5, 0.5}, Pi} { Surface{section}; };
-  half2[] = Extrude {{1, 0, 0}, {0, 0.5, 0.5}, -Pi} { Surface{section}; };
-  whole[] = BooleanUnion{ Volume{half1[1]}; Delete; }{ Volume{half2[1]}; Delete; };
   eps = 1e-3;
+  If (half)
+    symmetry[] = Surface In BoundingBox {-eps, -1, 0.5 - eps, length + eps, 2, 0.5 + eps};
+  Else
+    half2[] = Extrude {{1, 0, 0}, {0, 0.5, 0.5}, -Pi} { Surface{section}; };
+    whole[] = BooleanUnion{ Volume{half1[1]}; Delete; }{ Volume{half2[1]}; Delete; };
+  EndIf
   inlet[] = Surface In BoundingBox {-eps, -1, -1, eps, 2, 2};
   outlet[] = Surface In BoundingBox {length - eps, -1, -1, length + eps, 2, 2};
   tube[] = Surface{:};
-  tube[] -= {inlet[], outlet[]};
+  tube[] -= {inlet[], outlet[], symmetry[]};
   fluid[] = Volume{:};
   Mesh.CharacteristicLengthMax = 1 / n;
   Mesh.CharacteristicLengthMin = 1 / n;
@@ -87,6 +94,20 @@ Else
   rc = 0.68;
   rm = 0.56;
   c = (rc * rc - rm * rm) / (Sqrt(2) * rc - 2 * rm);
+  // Rays at these angles from y towards z, cells of the sides from each to the next, and the
+  // direction in which the side of the core lies.
+  If (half)
+    angle[] = {0, Pi / 4, 3 * Pi / 4, Pi};
+    core[] = {rm, rc, rc, rm};
+    cells[] = {m, 2 * m, m};
+    out[] = {0, Pi / 2, Pi};
+  Else
+    angle[] = {Pi / 4, 3 * Pi / 4, 5 * Pi / 4, 7 * Pi / 4};
+    core[] = {rc, rc, rc, rc};
+    cells[] = {2 * m, 2 * m, 2 * m, 2 * m};
+    out[] = {Pi / 2, Pi, 3 * Pi / 2, 2 * Pi};
+  EndIf
+  sides = half ? 3 : 4;
   inlet[] = {};
   outlet[] = {};
   tube[] = {};
@@ -99,28 +120,37 @@ Else
     centre = newp;
     Point(centre) = {x[i], 0.5, 0.5};
     For k In {0 : 3}
-      angle = (k + 0.5) * Pi / 2;
       pw[k] = newp;
-      Point(pw[k]) = {x[i], 0.5 + R * Cos(angle), 0.5 + R * Sin(angle)};
+      Point(pw[k]) = {x[i], 0.5 + R * Cos(angle[k]), 0.5 + R * Sin(angle[k])};
       pc[k] = newp;
-      Point(pc[k]) = {x[i], 0.5 + rc * R * Cos(angle), 0.5 + rc * R * Sin(angle)};
+      Point(pc[k]) = {x[i], 0.5 + core[k] * R * Cos(angle[k]), 0.5 + core[k] * R * Sin(angle[k])};
+    EndFor
+    For k In {0 : sides - 1}
       hub[k] = newp;
-      Point(hub[k]) = {x[i], 0.5 + c * R * Cos(angle + Pi / 4), 0.5 + c * R * Sin(angle + Pi / 4)};
+      Point(hub[k]) = {x[i], 0.5 + c * R * Cos(out[k]), 0.5 + c * R * Sin(out[k])};
     EndFor
     pw[4] = pw[0];
     pc[4] = pc[0];
-    For k In {0 : 3}
+    For k In {0 : sides - 1}
       arc[k] = newl;
       Circle(arc[k]) = {pw[k], centre, pw[k + 1]};
       side[k] = newl;
       Circle(side[k]) = {pc[k], hub[k], pc[k + 1]};
+      Transfinite Curve {arc[k], side[k]} = cells[k] + 1;
+    EndFor
+    For k In {0 : 3}
       ray[k] = newl;
       Line(ray[k]) = {pc[k], pw[k]};
-      Transfinite Curve {arc[k], side[k]} = 2 * m + 1;
       Transfinite Curve {ray[k]} = m + 1;
     EndFor
     ray[4] = ray[0];
-    For k In {0 : 3}
+    // The core is closed by its fourth side, or by the plane of symmetry.
+    If (half)
+      side[3] = newl;
+      Line(side[3]) = {pc[3], pc[0]};
+      Transfinite Curve {side[3]} = 2 * m + 1;
+    EndIf
+    For k In {0 : sides - 1}
       loop = newll;
       Curve Loop(loop) = {ray[k], arc[k], -ray[k + 1], -side[k]};
       face[k] = news;
@@ -128,8 +158,8 @@ Else
     EndFor
     loop = newll;
     Curve Loop(loop) = {side[0], side[1], side[2], side[3]};
-    face[4] = news;
-    Plane Surface(face[4]) = {loop};
+    face[sides] = news;
+    Plane Surface(face[sides]) = {loop};
     Transfinite Surface {face[]};
     Recombine Surface {face[]};
     If (i == 0)
@@ -150,11 +180,13 @@ Else
       EndFor
       along_w[4] = along_w[0];
       along_c[4] = along_c[0];
-      For k In {0 : 3}
+      For k In {0 : sides - 1}
         loop = newll;
         Curve Loop(loop) = {old_arc[k], along_w[k + 1], -arc[k], -along_w[k]};
         outer[k] = news;
         Surface(outer[k]) = {loop};
+      EndFor
+      For k In {0 : 3}
         loop = newll;
         Curve Loop(loop) = {old_side[k], along_c[k + 1], -side[k], -along_c[k]};
         inner[k] = news;
@@ -167,18 +199,21 @@ Else
       between[4] = between[0];
       Transfinite Surface {outer[], inner[], between[{0 : 3}]};
       Recombine Surface {outer[], inner[], between[{0 : 3}]};
-      For k In {0 : 3}
+      For k In {0 : sides - 1}
         loop = newsl;
         Surface Loop(loop) = {old_face[k], face[k], outer[k], inner[k], between[k], between[k + 1]};
         block[k] = newv;
         Volume(block[k]) = {loop};
       EndFor
       loop = newsl;
-      Surface Loop(loop) = {old_face[4], face[4], inner[]};
-      block[4] = newv;
-      Volume(block[4]) = {loop};
+      Surface Loop(loop) = {old_face[sides], face[sides], inner[]};
+      block[sides] = newv;
+      Volume(block[sides]) = {loop};
       Transfinite Volume {block[]};
       tube[] += {outer[]};
+      If (half)
+        symmetry[] += {inner[3], between[0], between[3]};
+      EndIf
       fluid[] += {block[]};
     EndIf
     old_pw[] = pw[];
@@ -192,4 +227,7 @@ EndIf
 Physical Surface("inlet", 1) = {inlet[]};
 Physical Surface("outlet", 2) = {outlet[]};
 Physical Surface("wall", 3) = {tube[]};
+If (half)
+  Physical Surface("symmetry", 4) = {symmetry[]};
+EndIf
 Physical Volume("fluid", 5) = {fluid[]};
