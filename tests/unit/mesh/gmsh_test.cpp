@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 
 #include "libfsi/core/error.hpp"
@@ -94,9 +95,15 @@ TEST(Gmsh, SharesOfARoundPipe) {
 }
 
 TEST(Gmsh, StenosisWallLiesOnTheCosine) {
-  for (const std::string name : {"stenosis", "stenosis_short", "stenosis_simplex"}) {
+  std::map<std::string, Real> volume;
+  for (const std::string name : {"stenosis", "stenosis_short", "stenosis_simplex", "stenosis_half",
+                                 "stenosis_half_simplex"}) {
     const Mesh mesh = built(name);
-    EXPECT_EQ(patch_names(mesh), (std::vector<std::string>{"inlet", "outlet", "wall"}));
+    const bool half = name.find("half") != std::string::npos;
+    std::vector<std::string> patches{"inlet", "outlet", "wall"};
+    if (half) patches.emplace_back("symmetry");
+    EXPECT_EQ(patch_names(mesh), patches);
+    volume[name] = mesh.total_volume;
     const Real throat = name == "stenosis_short" ? 2 : 6;
     const Patch& wall = mesh.patch("wall");
     for (Index f = wall.begin; f < wall.end; ++f) {
@@ -110,7 +117,13 @@ TEST(Gmsh, StenosisWallLiesOnTheCosine) {
       }
     }
     EXPECT_LE(quality(mesh).closure_max, 1e-12);
+    if (!half) continue;
+    const Patch& symmetry = mesh.patch("symmetry");
+    for (Index f = symmetry.begin; f < symmetry.end; ++f) EXPECT_NEAR(mesh.Cf[f].z, 0.5, 1e-9);
   }
+  // the walls of both are divided alike, of tetrahedra nearly so
+  EXPECT_NEAR(2 * volume["stenosis_half"] / volume["stenosis"], 1, 1e-12);
+  EXPECT_NEAR(2 * volume["stenosis_half_simplex"] / volume["stenosis_simplex"], 1, 5e-3);
 }
 
 TEST(Gmsh, CavityAndBox) {
