@@ -36,9 +36,10 @@ inline Tensor image(const Tensor& g, const Vec3& n) {
   return gR + outer(-2 * n, n.x * x + n.y * y + n.z * z);
 }
 
-/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, where
-/// they lie at a plane of symmetry of c: n its normal, r from the centre of c to that of the image
-/// of k. A cell lies at the plane when its centre is not twice as far from it as that of c.
+/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, in each
+/// plane of symmetry that c has a face on. n is the normal of the plane, r goes from the centre of c
+/// to that of the image of k. A cell counts as one at the plane when its centre is not twice as far
+/// from it as that of c.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
   for (const Index face : mesh.cell_faces[c]) {
