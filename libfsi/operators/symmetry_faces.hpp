@@ -9,21 +9,14 @@
 
 namespace fsi {
 
-/// The faces of the boundary on planes of symmetry.
+/// The faces of the boundary on planes of symmetry beyond which a field goes on as its image.
 struct SymmetryFaces {
-  /// patches: those of the planes.
-  SymmetryFaces(const Mesh& mesh, const std::vector<Patch>& patches)
-      : is(static_cast<std::size_t>(mesh.n_boundary()), 0) {
-    for (const Patch& patch : patches)
-      for (Index f = patch.begin; f < patch.end; ++f) is[f - mesh.n_internal] = 1;
-  }
+  std::vector<char> is{};  ///< [n_boundary] 1 for these, else 0; empty: there are none
 
   /// Whether f is one of them.
   bool has(Index f, const Mesh& mesh) const {
-    return f >= mesh.n_internal && is[f - mesh.n_internal] != 0;
+    return !is.empty() && f >= mesh.n_internal && is[f - mesh.n_internal] != 0;
   }
-
-  std::vector<char> is;  ///< [n_boundary] 1 on planes of symmetry, else 0
 };
 
 /// Image of a vector in a plane with unit normal n: R v, R = I - 2 n (x) n.
@@ -36,10 +29,10 @@ inline Tensor image(const Tensor& g, const Vec3& n) {
   return gR + outer(-2 * n, n.x * x + n.y * y + n.z * z);
 }
 
-/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, in each
-/// plane of symmetry that c has a face on. n is the normal of the plane, r goes from the centre of c
-/// to that of the image of k. A cell counts as one at the plane when its centre is not twice as far
-/// from it as that of c.
+/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, in
+/// each plane of symmetry that c has a face on. n is the normal of the plane, r goes from the
+/// centre of c to that of the image of k. A cell counts as one at the plane when its centre is not
+/// twice as far from it as that of c.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
   for (const Index face : mesh.cell_faces[c]) {

@@ -21,7 +21,7 @@ namespace fsi::solid {
 /// lie the images of the cells, with R d_k and R g_k R (symmetry_faces.hpp).
 class MapExtension {
  public:
-  /// symmetry: planes beyond which the images of the cells count as neighbours. mesh must outlive
+  /// symmetry: faces beyond which the images of the cells count as neighbours. mesh must outlive
   /// it.
   MapExtension(const Mesh& mesh, SymmetryFaces symmetry)
       : mesh_(mesh), symmetry_(std::move(symmetry)), item_(mesh), rings_(mesh) {}

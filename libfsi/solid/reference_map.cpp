@@ -19,26 +19,29 @@ Real largest_rate(const Tensor& L) {
                    std::abs(L.xy + L.yx), std::abs(L.xz + L.zx), std::abs(L.yz + L.zy)});
 }
 
-/// Which patches of the mesh these are.
-std::vector<bool> among(const std::vector<Patch>& patches, const Mesh& mesh) {
-  std::vector<bool> is;
-  for (const Patch& patch : mesh.patches)
-    is.push_back(std::ranges::find(patches, patch.name, &Patch::name) != patches.end());
-  return is;
+/// Which patches of the mesh have such faces.
+std::vector<bool> patches_of(const SymmetryFaces& symmetry, const Mesh& mesh) {
+  std::vector<bool> found;
+  for (const Patch& patch : mesh.patches) {
+    bool any = false;
+    for (Index f = patch.begin; f < patch.end; ++f) any = any || symmetry.has(f, mesh);
+    found.push_back(any);
+  }
+  return found;
 }
 
 }  // namespace
 
 ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>& walls,
-                           const std::vector<Patch>& mirrors)
+                           const SymmetryFaces& symmetry)
     : d(mesh),
       is_set(mesh, 1),
       mesh_(mesh),
       beside_psi_(role == Role::beside_psi),
       at_wall_(mesh),
-      stencil_(mesh, FaceWeights(mesh), among(mirrors, mesh)),
+      stencil_(mesh, FaceWeights(mesh), patches_of(symmetry, mesh)),
       known_(mesh),
-      extension_(mesh, SymmetryFaces(mesh, mirrors)),
+      extension_(mesh, symmetry),
       filled_(mesh),
       slope_(mesh) {
   for (const Patch& patch : walls)

@@ -30,11 +30,12 @@ class ReferenceMap {
   /// alike. A cell in which it has lost its volume is then fitted to those around it, as where the
   /// solid is new.
   enum class Role { alone, beside_psi };
-  /// Collective. walls: the patches that hold the velocity; used beside psi. mirrors: planes of
-  /// symmetry, beyond which the map goes on as its image. mesh must outlive it.
+  /// Collective. walls: the patches that hold the velocity; used beside psi. symmetry: of the
+  /// planes that cut the undeformed solid, beyond which the map goes on as its image. A plane that
+  /// it only comes to later is none of them: what is there came from elsewhere. mesh must outlive
+  /// it.
   explicit ReferenceMap(const Mesh& mesh, Role role = Role::alone,
-                        const std::vector<Patch>& walls = {},
-                        const std::vector<Patch>& mirrors = {});
+                        const std::vector<Patch>& walls = {}, const SymmetryFaces& symmetry = {});
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;

@@ -10,10 +10,10 @@
 namespace fsi {
 namespace {
 
-Kinematics make(const Mesh& mesh, KinematicsKind kind, const std::vector<Patch>& mirrors) {
+Kinematics make(const Mesh& mesh, KinematicsKind kind, const SymmetryFaces& symmetry) {
   if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
   if (kind == KinematicsKind::reference_map)
-    return solid::ReferenceMap(mesh, solid::ReferenceMap::Role::alone, {}, mirrors);
+    return solid::ReferenceMap(mesh, solid::ReferenceMap::Role::alone, {}, symmetry);
   return solid::LogConformation(mesh);
 }
 
@@ -69,6 +69,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       rho(solid.rho > 0 ? solid.rho : physics.rho),
       weight(rho * solid.acceleration + (rho - physics.rho) * physics.gravity),
       alpha(mesh),
+      filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
       alpha_mid(mesh),
       B(mesh),
       alpha_f(mesh),
@@ -80,21 +81,23 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       reconstruct_scratch(mesh),
       advect_scratch(mesh),
       band(mesh),
-      kinematics(make(mesh, solid.kinematics, mirrors)),
+      kinematics(make(mesh, solid.kinematics, {filled.cut_by.faces})),
       elastic_force(mesh, weights, G),
       semi_implicit_elasticity(mesh, weights, zone),
       grad(mesh),
       shape(solid.shape),
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green && !zone.all()),
       hold_scratch(mesh),
-      filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
-      symmetry(mesh, mirrors),
+      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
       specks(static_cast<std::size_t>(mesh.n_owned)) {
+  for (const Patch& patch : mirrors)
+    for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
   hold_parts(physics);
   if (extended() && mesh.dim == 3 && zone.any()) off_walls.emplace(mesh, walls, zone);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
-    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls, mirrors);
+    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,
+                   SymmetryFaces{filled.cut_by.faces});
     memory->set_undeformed(alpha);
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);

@@ -8,7 +8,6 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/io/checkpoint.hpp"
-#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/body_force.hpp"
 #include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
@@ -161,6 +160,7 @@ struct Body {
   Real G, mu, rho;             ///< shear modulus, dynamic viscosity, density
   Vec3 weight;                 ///< body force per volume: rho a + (rho - rho_fluid) g
   CellField<Real> alpha;       ///< volume fraction of the solid
+  vof::Filled filled;          ///< volume, its error, and what cuts it at the start
   CellField<Real> alpha_mid;   ///< mean of it and of that before the last step
   CellField<SymTensor> B;      ///< on the band's cells, zero elsewhere; owned and halo
   FaceField<Real> alpha_f;     ///< part of solid at the band's faces
@@ -198,10 +198,9 @@ struct Body {
   vof::HoldScratch hold_scratch;                 ///< scratch
   std::vector<Real> trust;                       ///< scratch of that
   Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
-  vof::Filled filled;    ///< volume and its error at the start
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
-  SymmetryFaces symmetry;         ///< the faces on planes of symmetry
+  std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry
   std::vector<char> specks;       ///< [n_owned] scratch
   Real volume_out = 0;            ///< what left the mesh or was taken out after it
   Real residue = 0;               ///< of this: what was taken out at the end, by this program

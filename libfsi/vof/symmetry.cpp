@@ -21,13 +21,12 @@ struct Planes {
   std::vector<Mirror> all{};
 
   void add(const Mirror& plane) {
-    const auto same = [&](const Mirror& other) {
-      return norm(cross(plane.n, other.n)) < level &&
-             std::abs(dot(plane.x - other.x, other.n)) < touching;
-    };
+    const auto same = [&](const Mirror& other) { return other.is_same(plane, level, touching); };
     if (all.size() < most && std::ranges::none_of(all, same)) all.push_back(plane);
   }
 };
+
+Mirror plane_of(Index f, const Mesh& mesh) { return {mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])}; }
 
 bool sticks_out(const std::function<Real(const Vec3&)>& distance, const Mesh& mesh, Index f,
                 Real touching) {
@@ -62,11 +61,19 @@ CuttingPlanes cutting_planes(const std::function<Real(const Vec3&)>& distance, c
   Planes planes{.touching = touching, .most = static_cast<std::size_t>(mesh.dim) + 1};
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f)
-      if (sticks_out(distance, mesh, f, touching))
-        planes.add({mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])});
+      if (sticks_out(distance, mesh, f, touching)) planes.add(plane_of(f, mesh));
   share(planes);
-  if (!at_right_angles(planes.all)) return {.odd = true};
-  return {.planes = planes.all};
+  std::vector<char> faces(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  if (!at_right_angles(planes.all)) return {.odd = true, .faces = faces};
+  for (const Patch& patch : mirrors)
+    for (Index f = patch.begin; f < patch.end; ++f) {
+      const auto holds = [&](const Mirror& plane) {
+        return plane.is_same(plane_of(f, mesh), level, touching);
+      };
+      faces[static_cast<std::size_t>(f - mesh.n_internal)] =
+          std::ranges::any_of(planes.all, holds) ? 1 : 0;
+    }
+  return {.planes = planes.all, .faces = faces};
 }
 
 }  // namespace fsi::vof

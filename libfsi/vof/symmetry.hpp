@@ -14,6 +14,7 @@ namespace fsi::vof {
 struct CuttingPlanes {
   std::vector<geometry::Mirror> planes{};  ///< all at right angles; empty where they are not
   bool odd = false;                        ///< whether the solid is cut, but not by such planes
+  std::vector<char> faces{};  ///< [n_boundary] 1 for faces of patches in `planes`, else 0
 };
 
 /// Collective. The planes in which faces of `mirrors` lie that the solid sticks out of; a solid

@@ -36,9 +36,11 @@ std::array<Real, 3> after_steps(const test::BoxFile& box, Real plane, const char
     const Real z = x.z - plane;
     return Vec3{0.3 + z * z - 0.4 * x.y, 0.4 * x.x, 0};
   };
-  std::vector<Patch> mirrors;
-  if (*mirror != 0) mirrors.push_back(mesh.patch(mirror));
-  solid::ReferenceMap map(mesh, solid::ReferenceMap::Role::alone, {}, mirrors);
+  SymmetryFaces symmetry{std::vector<char>(static_cast<std::size_t>(mesh.n_boundary()), 0)};
+  if (*mirror != 0)
+    for (Index f = mesh.patch(mirror).begin; f < mesh.patch(mirror).end; ++f)
+      symmetry.is[f - mesh.n_internal] = 1;
+  solid::ReferenceMap map(mesh, solid::ReferenceMap::Role::alone, {}, symmetry);
   for (Index c = 0; c < mesh.n_cells; ++c) {
     const Vec3 r = mesh.C[c] - Vec3{0.5, 0.5, plane};
     alpha[c] = norm(r) < 0.3 ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -13,6 +14,11 @@ namespace {
 CuttingPlanes cut(const Mesh& mesh, const shapes::Shape& shape, const std::vector<Patch>& mirrors) {
   return cutting_planes([&shape](const Vec3& x) { return shape(x); }, mesh, mirrors);
 }
+
+GlobalIndex count(const CuttingPlanes& c) {
+  return global_sum(static_cast<GlobalIndex>(std::ranges::count(c.faces, 1)));
+}
+GlobalIndex count_of(const Patch& patch) { return global_sum(patch.end - patch.begin); }
 
 /// One patch of the faces of two that follow each other.
 Patch joined(const Patch& a, const Patch& b) {
@@ -34,6 +40,8 @@ TEST(CuttingPlanes, OfOnePatchOrTwo) {
     EXPECT_FALSE(c.odd);
     ASSERT_EQ(c.planes.size(), 2U);
     for (const geometry::Mirror& m : c.planes) EXPECT_NEAR(norm(m.foot({0, 0, 0})), 0, 1e-14);
+    EXPECT_EQ(count(c), count_of(left) + count_of(bottom))
+        << "whole planes, not what is cut of them";
   }
   for (const CuttingPlanes& c :
        {cut(mesh, between, {left, right}), cut(mesh, between, {joined(left, right)})}) {
@@ -45,6 +53,7 @@ TEST(CuttingPlanes, OfOnePatchOrTwo) {
   const CuttingPlanes none = cut(mesh, touching, {left, right, bottom, top});
   EXPECT_FALSE(none.odd);
   EXPECT_TRUE(none.planes.empty());
+  EXPECT_EQ(count(none), 0) << "its map does not go on beyond the plane";
 }
 
 TEST(CuttingPlanes, ACurvedPatchIsOdd) {
