@@ -1,9 +1,9 @@
 #pragma once
 // What a cell at a plane of symmetry sees beyond it.
 
-#include <cmath>
 #include <vector>
 
+#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/operators/stencil.hpp"
 
@@ -20,7 +20,7 @@ struct SymmetryFaces {
 };
 
 /// Image of a vector in a plane with unit normal n: R v, R = I - 2 n (x) n.
-inline Vec3 image(const Vec3& v, const Vec3& n) { return v - (2 * dot(v, n)) * n; }
+inline Vec3 image(const Vec3& v, const Vec3& n) { return geometry::Mirror{{}, n}.of_direction(v); }
 /// Image of the gradient of a field of vectors: R g R.
 inline Tensor image(const Tensor& g, const Vec3& n) {
   const Vec3 x = image(Vec3{g.xx, g.xy, g.xz}, n), y = image(Vec3{g.yx, g.yy, g.yz}, n),
@@ -42,7 +42,7 @@ void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Functi
     f(c, (2 * own) * n, n);
     for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& r) {
       const Real height = own - dot(r, n);
-      if (height < 2 * own) f(k, r + (2 * height) * n, n);
+      if (height > 0 && height < 2 * own) f(k, r + (2 * height) * n, n);
     });
   }
 }

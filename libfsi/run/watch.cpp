@@ -51,8 +51,8 @@ void tell_of_images(const Solver& solver) {
     if (body.filled.cut_by.odd)
       say("notice",
           name_of(body) +
-              " is cut by planes of symmetry that are not all flat and at right angles: "
-              "its directions, sections and deformation are those of the part in the mesh");
+              " is cut by parallel, oblique or curved planes of symmetry: its directions, angles, "
+              "sections, bending and taylor are those of the part in the mesh");
 }
 
 std::string Watch::energy(Real made, const Solver& solver) {

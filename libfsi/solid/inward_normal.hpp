@@ -5,19 +5,23 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/stencil.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::solid {
 
 /// Unit vector along sum_k (alpha_k - alpha_c) d_k / |d_k|^2 over the vertex neighbours of cell c:
-/// the normal of the surface, into the solid. Zero where the solid is alike on all sides. alpha:
-/// owned and halo.
-inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index c) {
+/// the normal of the surface, into the solid. Zero where the solid is alike on all sides. symmetry:
+/// faces beyond which the images count as neighbours. alpha: owned and halo.
+inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index c,
+                          const SymmetryFaces& symmetry = {}) {
   Vec3 n;
   Real size = 0;
-  for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& d) {
+  const auto add = [&](Index k, const Vec3& d) {
     n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
     size += std::abs(alpha[k] - alpha[c]) / norm(d);
-  });
+  };
+  for_vertex_neighbours(c, mesh, add);
+  for_images(c, symmetry, mesh, [&](Index k, const Vec3& d, const Vec3& /*n*/) { add(k, d); });
   constexpr Real alike = 1e-6;
   return norm(n) > alike * size ? n / norm(n) : Vec3{};
 }

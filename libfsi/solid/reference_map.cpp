@@ -19,13 +19,13 @@ Real largest_rate(const Tensor& L) {
                    std::abs(L.xy + L.yx), std::abs(L.xz + L.zx), std::abs(L.yz + L.zy)});
 }
 
-/// Which patches of the mesh have such faces.
+/// Collective. Which patches of the mesh have such faces.
 std::vector<bool> patches_of(const SymmetryFaces& symmetry, const Mesh& mesh) {
   std::vector<bool> found;
   for (const Patch& patch : mesh.patches) {
     bool any = false;
     for (Index f = patch.begin; f < patch.end; ++f) any = any || symmetry.has(f, mesh);
-    found.push_back(any);
+    found.push_back(!all_of_ranks(!any));
   }
   return found;
 }
@@ -83,20 +83,29 @@ Real ReferenceMap::trust(Index c) const {
 }
 
 Tensor ReferenceMap::gradient(Index c) const {
-  Tensor sum;
+  const SymmetryFaces& symmetry = extension_.symmetry();
+  Tensor sum, aside;
   if (static_cast<int>(mesh_.cell_faces[c].size()) <= mesh_.dim + 1)
     return extension_.regression(c);
   for (const Index f : mesh_.cell_faces[c]) {
     const Index n = beyond(mesh_, f, c);
-    if (extension_.symmetry().has(f, mesh_)) {
-      const Vec3& S = mesh_.Sf[f];  // d_f = d_c - (d_c . n) n, half way to the image
-      sum += outer((-dot(d[c], S) / norm2(S)) * S, stencil_.weight(f, true));
-      continue;
+    const Vec3& weight = stencil_.weight(f, mesh_.owner[f] == c);
+    if (n >= 0) {
+      sum += outer(d[n] - d[c], weight);
+    } else if (symmetry.has(f, mesh_)) {
+      // d - (d . n) n stands at the foot of the centre on the plane, half way to the image. The
+      // weights are those of the face's centre, t aside of it, so sum = grad d . (I - t (x)
+      // weight).
+      const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+      sum += outer(-dot(d[c], normal) * normal, weight);
+      aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, weight);
+    } else {
+      return extension_.regression(c);
     }
-    if (n < 0) return extension_.regression(c);
-    sum += outer(d[n] - d[c], stencil_.weight(f, mesh_.owner[f] == c));
   }
-  return sum;
+  if (aside == Tensor{}) return sum;
+  const Tensor whole{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  return dot(sum, inverse(whole + -1.0 * aside));
 }
 
 void ReferenceMap::extend() {
@@ -130,6 +139,8 @@ Tensor ReferenceMap::mean_of_known(const CellField<Tensor>& L, Index c) const {
   for (const Index f : mesh_.cell_faces[c]) {
     const Index n = beyond(mesh_, f, c);
     if (n >= 0 && filled_[n] >= alpha_known) sum += L[n], ++count;
+    if (extension_.symmetry().has(f, mesh_))
+      sum += image(L[c], mesh_.Sf[f] / norm(mesh_.Sf[f])), ++count;
   }
   return count > 0 ? (1.0 / count) * sum : L[c];
 }
@@ -197,7 +208,8 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
       off += (side * dot(of_L, mesh_.Sf[f])) * r;
     }
     if (rim) {
-      const Vec3 n = inward_normal(filled_, mesh_, c), more = carried - off - mesh_.V[c] * w;
+      const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry()),
+                 more = carried - off - mesh_.V[c] * w;
       off += more - dot(more, n) * n;
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(L, off));

@@ -74,7 +74,8 @@ struct Body {
   /// a reference map, which B alone does not tell.
   void set_B(const std::function<SymTensor(const Vec3&)>& B_0);
   /// Collective. The same for a reference map: xi_0(x) is where the particle at x came from.
-  /// Errors: Error{input} with other kinematics.
+  /// On planes of symmetry that cut the shape it must stay in the plane. Errors: Error{input} with
+  /// other kinematics.
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight ask for.
   void hold_parts(const Physics& physics);

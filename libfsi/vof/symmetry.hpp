@@ -13,13 +13,16 @@ namespace fsi::vof {
 /// whole; those in other planes go on and on, or overlap.
 struct CuttingPlanes {
   std::vector<geometry::Mirror> planes{};  ///< all at right angles; empty where they are not
-  bool odd = false;                        ///< whether the solid is cut, but not by such planes
-  std::vector<char> faces{};  ///< [n_boundary] 1 for faces of patches in `planes`, else 0
+  bool odd = false;  ///< whether the solid is cut, but not by planes at right angles alone
+  /// [n_boundary] 1 for the faces of `mirrors` that lie in a plane that cuts the solid, at whatever
+  /// angle to others; all 0 where a curved patch cuts it.
+  std::vector<char> faces{};
 };
 
 /// Collective. The planes in which faces of `mirrors` lie that the solid sticks out of; a solid
 /// that only touches is not cut. A patch may hold several planes, and several patches may lie in
-/// one. distance: of x to the surface of the solid, negative within. A curved patch is odd.
+/// one. A patch is curved where a face beside those in a plane turns by less than 30 degrees; more
+/// is an edge. distance: of x to the surface of the solid, negative within.
 CuttingPlanes cutting_planes(const std::function<Real(const Vec3&)>& distance, const Mesh& mesh,
                              const std::vector<Patch>& mirrors);
 

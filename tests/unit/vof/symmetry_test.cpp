@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
@@ -47,6 +48,7 @@ TEST(CuttingPlanes, OfOnePatchOrTwo) {
        {cut(mesh, between, {left, right}), cut(mesh, between, {joined(left, right)})}) {
     EXPECT_TRUE(c.odd) << "parallel planes give images without end";
     EXPECT_TRUE(c.planes.empty());
+    EXPECT_EQ(count(c), count_of(left) + count_of(right)) << "the map goes on beyond each";
   }
   // what touches is not cut
   const shapes::Shape touching = shapes::translate(shapes::sphere(0.25), {0.25, 0.5, 0});
@@ -62,6 +64,38 @@ TEST(CuttingPlanes, ACurvedPatchIsOdd) {
   const CuttingPlanes c =
       cut(mesh, shapes::translate(shapes::sphere(0.3), {0.5, 0, 0}), {mesh.patch("bottom")});
   EXPECT_TRUE(c.odd);
+  EXPECT_EQ(count(c), 0);
+  const CuttingPlanes of_one =
+      cut(mesh, shapes::translate(shapes::sphere(0.02), {0.53, 0.03, 0}), {mesh.patch("bottom")});
+  EXPECT_TRUE(of_one.odd) << "one facet of it";
+}
+
+// What the digits of a mesh file leave does not make a plane curved, nor two planes oblique.
+TEST(CuttingPlanes, AreTakenDespiteRounding) {
+  const auto rough = [](const Vec3& x) {
+    return x + 1e-6 * Vec3{std::sin(97 * x.y), std::sin(89 * x.x), 0};
+  };
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .moved = rough});
+  const CuttingPlanes c =
+      cut(mesh, shapes::sphere(0.4), {mesh.patch("bottom"), mesh.patch("left")});
+  EXPECT_FALSE(c.odd);
+  EXPECT_EQ(c.planes.size(), 2U);
+  EXPECT_EQ(count(c), count_of(mesh.patch("bottom")) + count_of(mesh.patch("left")));
+}
+
+// Planes of 3-D at 90 and at 60 degrees.
+TEST(CuttingPlanes, ObliqueOnesAreOdd) {
+  const auto leaning = [](const Vec3& x) { return Vec3{x.x + 0.577 * x.y, x.y, x.z}; };
+  for (const bool oblique : {false, true}) {
+    test::BoxFile box{.n = {8, 8, 8}};
+    if (oblique) box.moved = leaning;
+    const Mesh mesh = test::read_box(box);
+    const CuttingPlanes c = cut(mesh, shapes::sphere(0.4),
+                                {mesh.patch("left"), mesh.patch("bottom"), mesh.patch("back")});
+    EXPECT_EQ(c.odd, oblique);
+    EXPECT_EQ(c.planes.size(), oblique ? 0U : 3U);
+    EXPECT_EQ(count(c), 3 * 64);
+  }
 }
 
 }  // namespace
