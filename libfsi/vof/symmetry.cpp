@@ -67,19 +67,19 @@ bool at_right_angles(const std::vector<Mirror>& planes) {
   return true;
 }
 
-/// Whether a face of `mirrors` that shares a vertex with one in a plane turns a little.
+/// Whether a face of `mirrors` that shares a point with one in a plane turns a little.
 bool is_curved(const std::vector<char>& faces, const std::vector<Mirror>& planes, const Mesh& mesh,
                const std::vector<Patch>& mirrors) {
   constexpr Real cos_of_edge = 0.866;  // 30 degrees
-  std::unordered_set<Index> vertices;
+  std::unordered_set<Index> points;
   for (Index b = 0; b < mesh.n_boundary(); ++b)
     if (faces[b] != 0)
-      for (const Index p : mesh.face_points[mesh.n_internal + b]) vertices.insert(mesh.vertex[p]);
+      for (const Index p : mesh.face_points[mesh.n_internal + b]) points.insert(p);
   bool curved = false;
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f) {
       if (faces[f - mesh.n_internal] != 0) continue;
-      const auto beside = [&](Index p) { return vertices.contains(mesh.vertex[p]); };
+      const auto beside = [&](Index p) { return points.contains(p); };
       const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
       const auto near = [&](const Mirror& plane) { return dot(plane.n, n) > cos_of_edge; };
       curved = curved || (std::ranges::any_of(mesh.face_points[f], beside) &&
