@@ -1,6 +1,7 @@
 // A box of side H about the origin, for a particle of radius 1 there: dim 2, a square, with gmsh -2;
 // dim 3, a cube, with gmsh -3. n cells per radius within `core` of the origin; farther out a cell is
 // `growth` times as wide as the one before. simplex 1: triangles or tets, 0: quads or hexes.
+// half 1 (hexes): only z > 0, with the plane z = 0 as patch back.
 // Patches left, right (x), bottom, top (y), in 3-D back, front (z); opposite sides match.
 DefineConstant[
   n = {16, Name "n"},
@@ -8,6 +9,7 @@ DefineConstant[
   dim = {2, Name "dim"},
   core = {1.75, Name "core"},
   growth = {1.15, Name "growth"},
+  half = {0, Name "half"},
   simplex = {0, Name "simplex"}
 ];
 h = 1 / n;
@@ -98,7 +100,15 @@ Else
     ones[] += {1};
     ends[] += {x / H};
   EndFor
-  Point(1) = {-a, -a, (dim == 3) ? -a : 0};
+  // Along z all layers, or those beyond the middle.
+  depth = half ? a : H;
+  layers[] = {};
+  tops[] = {};
+  For k In {(half ? m + inner / 2 : 0) : 2 * m + inner - 1}
+    layers[] += {1};
+    tops[] += {half ? 2 * ends[k] - 1 : ends[k]};
+  EndFor
+  Point(1) = {-a, -a, (dim == 3 && !half) ? -a : 0};
   row[] = Extrude {H, 0, 0} { Point{1}; Layers{ones[], ends[]}; };
   area[] = Extrude {0, H, 0} { Curve{row[1]}; Layers{ones[], ends[]}; Recombine; };
   bottom[] = {row[1]};
@@ -107,7 +117,7 @@ Else
   left[] = {area[3]};
   right[] = {area[2]};
   If (dim == 3)
-    block[] = Extrude {0, 0, H} { Surface{area[1]}; Layers{ones[], ends[]}; Recombine; };
+    block[] = Extrude {0, 0, depth} { Surface{area[1]}; Layers{layers[], tops[]}; Recombine; };
     back[] = {area[1]};
     front[] = {block[0]};
     fluid[] = {block[1]};
