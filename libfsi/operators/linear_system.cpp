@@ -124,7 +124,6 @@ void set_defaults(const std::string& prefix, Method method, KSP solver) {
       prefer(prefix, "pc_hypre_boomeramg_interp_type", "ext+i");
       prefer(prefix, "pc_hypre_boomeramg_P_max", "4");
       prefer(prefix, "pc_hypre_boomeramg_strong_threshold", "0.25");
-      prefer(prefix, "pc_hypre_boomeramg_agg_nl", "1");
       // Of BoomerAMG's own cycle, where the user asks for that; else its levels are all that stays.
       prefer(prefix, "pc_hypre_boomeramg_relax_type_all", "Chebyshev");
       if (!is_given("-" + prefix + "pc_type"))
