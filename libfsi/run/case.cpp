@@ -275,11 +275,6 @@ void put_solids(Solver& solver, const Case& setup) {
     solver.put_solid(s.solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;
-    if (s.solid.memory && body.zone.any() && body.extended())
-      std::printf(
-          "%s: no memory of its shape %s triangles and tetrahedra: a shape under load creeps "
-          "(doc/howto/vessel.md, section 4)\n",
-          s.shape_name.c_str(), body.held ? "in cells at" : "on");
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
       std::fprintf(stderr,
                    "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "

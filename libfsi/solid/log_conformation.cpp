@@ -125,7 +125,6 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
-    if (by_fit(snapshot, c)) continue;
     const Real rate = by_flow * courant_rate(snapshot.phi, mesh_, c) +
                       by_wave * snapshot.wave_speed / cell_size(mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));

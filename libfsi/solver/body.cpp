@@ -86,7 +86,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       semi_implicit_elasticity(mesh, weights, zone),
       grad(mesh),
       shape(solid.shape),
-      held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green && !zone.all()),
+      held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
       hold_scratch(mesh),
       mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
       specks(static_cast<std::size_t>(mesh.n_owned)) {
@@ -165,7 +165,7 @@ void Body::hold_shape() {
   if (!held || gone != 0) return;
   const solid::ReferenceMap& m = *map();
   trust.clear();
-  for (const Index c : m.cells()) trust.push_back(zone.has(c) ? 0 : m.trust(c));
+  for (const Index c : m.cells()) trust.push_back(m.trust(c));
   shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);

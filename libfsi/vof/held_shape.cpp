@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
@@ -92,16 +93,28 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
   Sum solid, moved;
   for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
   const Real volume = solid.total();
-  constexpr int rounds = 6;
+  constexpr int rounds = 20;
   constexpr Real enough = 1e-7;  // of the volume; the rest goes to the cut cells
   constexpr Real left = 1e-5;    // more cannot go there
-  Real off = volume, shift = 0;
+  // Newton's method, kept between a shift that gives too little and one that gives too much: where
+  // many cells ask for more than they may get, its steps go to and fro. The change grows with the
+  // shift, so the two are always on their own sides.
+  constexpr Real none = std::numeric_limits<Real>::infinity();
+  Real off = volume, shift = 0, little = -none, much = none;
   for (int i = 0; i < rounds; ++i) {
     std::array<Real, 2> totals{};
     set_changes(totals, alpha, mesh, shift, s);
     off = totals[0];
-    if (std::abs(off) <= enough * volume || totals[1] <= 0) break;
-    shift -= totals[0] / totals[1];
+    if (std::abs(off) <= enough * volume) break;
+    (off < 0 ? little : much) = shift;
+    const Real next = totals[1] > 0 ? shift - off / totals[1] : none;
+    if (next > little && next < much) {
+      shift = next;
+    } else if (much - little < none) {
+      shift = (little + much) / 2;
+    } else {
+      break;
+    }
   }
   if (!(std::abs(off) <= left * volume)) return 0;  // no shift does: the map tells no shape
   std::array<Sum, 2> sums;  // volume added, weight of those who give it back

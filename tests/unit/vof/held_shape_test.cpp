@@ -47,9 +47,9 @@ Mesh box(int n, int dim, bool simplex) {
 
 shapes::Shape round_solid(const Vec3& at) { return shapes::translate(shapes::sphere(0.3), at); }
 
-/// The same volume, drawn out along x.
-shapes::Shape drawn_out(int dim) {
-  const Real a = 1.03, b = dim == 2 ? 1 / a : 1 / std::sqrt(a);
+/// The same volume, drawn out along x by a.
+shapes::Shape drawn_out(int dim, Real a = 1.03) {
+  const Real b = dim == 2 ? 1 / a : 1 / std::sqrt(a);
   const auto sphere = shapes::sphere(0.3);
   return [=](const Vec3& x) {
     const Vec3 r = x - middle;
@@ -95,6 +95,26 @@ TEST(HeldShape, BringsASolidBackToItsShape) {
         }
         last = end.shape;
       }
+    }
+}
+
+// A solid far from its shape, most of whose cells ask for more than a step gives them, comes back
+// too.
+TEST(HeldShape, BringsASolidBackFromFar) {
+  for (const bool simplex : {false, true})
+    for (const Real by : {1.05, 1.1, 1.15}) {
+      Mapped map(box(24, 2, simplex), {});
+      const Vec3 at{0.5, 0.5, 0};
+      CellField<Real> alpha(map.mesh), exact(map.mesh);
+      vof::fill(exact, map.mesh, round_solid(at));
+      vof::fill(alpha, map.mesh, drawn_out(2, by));
+      const Real volume = apart(alpha, exact, map.mesh).volume;
+      for (int i = 0; i < 80; ++i) {
+        EXPECT_GT(map.hold(alpha, round_solid(at)), 0) << simplex << by << i;
+      }
+      const Apart end = apart(alpha, exact, map.mesh);
+      EXPECT_NEAR(end.volume, volume, 1e-13);
+      EXPECT_LT(end.shape, 2e-3);
     }
 }
 
