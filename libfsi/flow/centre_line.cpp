@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/boundary.hpp"
@@ -21,18 +22,23 @@ CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::str
   BoundaryField<Real> q_b(mesh);
   const Patch& first = mesh.patch(from);
   for (Index f = first.begin; f < first.end; ++f) q_b[f - mesh.n_internal] = 1;
-  constexpr Real tolerance = 1e-9;
-  projection.project(phi, q, grad, q_b, tolerance * mesh.total_volume);
+  projection.project(phi, q, grad, q_b, 0);
 
   // Slices at least about two cells long, by the volume: potential falls faster where it is narrow.
   const Real across = std::cbrt(static_cast<Real>(mesh.n_global));
   const int slices = std::clamp(static_cast<int>(across), 4, 200);
   std::vector<Sum> sums(4 * static_cast<std::size_t>(slices));
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    const int k = std::clamp(static_cast<int>((1 - q[c]) * slices), 0, slices - 1);
-    const Real weight = mesh.V[c] * norm2(grad[c]);
-    for (int i = 0; i < 3; ++i) sums[4 * k + i].add(weight * mesh.C[c][i]);
-    sums[4 * k + 3].add(weight);
+    // Between the middles of two slices a cell passes from one to the other, so that the line is
+    // continuous in q.
+    const Real at = std::clamp((1 - q[c]) * slices - 0.5, Real{0}, static_cast<Real>(slices - 1));
+    const int k = std::min(static_cast<int>(at), slices - 2);
+    const Real share = at - k, weight = mesh.V[c] * norm2(grad[c]);
+    for (const auto& [slice, w] :
+         {std::pair{k, (1 - share) * weight}, std::pair{k + 1, share * weight}}) {
+      for (int i = 0; i < 3; ++i) sums[4 * slice + i].add(w * mesh.C[c][i]);
+      sums[4 * slice + 3].add(w);
+    }
   }
   std::vector<Real> total(sums.size());
   Sum::totals(total, sums);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -156,19 +157,34 @@ class NamedSides {
   std::vector<char> touched_;
 };
 
+/// inside: halves of faces between two cells, by name.
+void tell_of_inside(const RawMesh& raw, const std::vector<std::string>& periodic,
+                    const std::vector<Index>& inside) {
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] == 0 || std::ranges::find(periodic, raw.names[i]) != periodic.end()) continue;
+    std::fprintf(stderr,
+                 "fsi: warning: %s: %lld faces of \"%s\" lie between two cells; the flow passes "
+                 "through them, they are no part of the patch\n",
+                 raw.file.c_str(), static_cast<long long>(inside[i] / 2), raw.names[i].c_str());
+  }
+}
+
 /// Fills face_patch with the numbers of the names in the file, and patches.
 void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
                 const std::vector<Index>& mate, CellList& list) {
   NamedSides sides(raw, list.points.size());
   list.face_patch.assign(list.types.size(), {-1, -1, -1, -1, -1, -1});
   require(raw.names.size() < 128, raw.file + " has more than 127 physical names on its boundary");
-  std::vector<Index> faces(raw.names.size(), 0);
+  std::vector<Index> faces(raw.names.size(), 0), inside = faces;
   GlobalIndex uncovered = 0;
   std::string places;
   each_half(list, [&](Index half) {
     const Half h(half);
     const Index name = sides.name_of(point_key(list, h));
-    if (mate[half] >= 0) return;
+    if (mate[half] >= 0) {
+      if (name >= 0) ++inside[name];
+      return;
+    }
     if (name < 0) {
       if (++uncovered <= 5) places += (places.empty() ? "" : ", ") + text_of(centre_of(list, h));
       return;
@@ -184,6 +200,7 @@ void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
                               " boundary faces carry no physical name, the first at " + places +
                               "; names are: " + (raw.names.empty() ? "none" : text_of(raw.names)));
   sides.check_used();
+  tell_of_inside(raw, periodic, inside);
   // Names without boundary faces (periodic ones, surfaces inside) are no patches.
   std::vector<std::int8_t> patch(raw.names.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -148,8 +148,10 @@ void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::R
     if (!(body.alpha[c] >= solid::alpha_known)) continue;
     low = std::min(low, map.volume_ratio(c)), high = std::max(high, map.volume_ratio(c));
   }
-  row.push_back({"map_det_min", global_min(low)});
-  row.push_back({"map_det_max", global_max(high)});
+  low = global_min(low), high = global_max(high);
+  const bool any = low <= high;
+  row.push_back({"map_det_min", any ? low : 1});
+  row.push_back({"map_det_max", any ? high : 1});
   row.push_back({"shape_energy", soundness.shape_energy, Course::energy});
   row.push_back({"shape_moved", body.shape_moved, Course::step});
 }
@@ -184,8 +186,25 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
   return B;
 }
 
+namespace {
+
+/// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
+SymTensor isochoric(SymTensor B, int dim) {
+  const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
+  if (!(J2 > 0)) return identity();
+  B = (1 / (dim == 2 ? std::sqrt(J2) : std::cbrt(J2))) * B;
+  if (dim == 2) B.zz = 1;
+  return B;
+}
+
+}  // namespace
+
 Real elastic_energy(const Body& body) {
-  return body.law.energy(body.G, B_field(body, body.mesh), body.alpha, body.mesh);
+  CellField<SymTensor> B = B_field(body, body.mesh);
+  // The paper's B loses its determinant, and only its deviator makes stress.
+  if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
+    for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
+  return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
 Real shape_energy(const Body& body) {

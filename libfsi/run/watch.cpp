@@ -72,8 +72,8 @@ void Watch::leaving(const Solver& solver) {
   const Real t = solver.state().t;
   for (std::size_t i = 0; i < said_.size(); ++i) {
     const Body& body = solver.bodies()[i];
-    constexpr Real rounding = 1e-12;  // as in Body::count_out
-    if (body.volume_out <= rounding * body.filled.volume) continue;
+    constexpr Real specks = 1e-4;  // of the solid, may run ahead of it
+    if (body.volume_out <= specks * body.filled.volume) continue;
     const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
     said_[i].leaving = true, said_[i].left = body.gone != 0;
     if (begins)
@@ -103,7 +103,9 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
-  constexpr Real apart = 0.5, matters = 1e-3;  // of the larger, of G times the volume
+  constexpr Real apart = 0.5;  // of the larger
+  // Of G times the volume. The map of triangles and tetrahedra tells strains to some per cent.
+  const Real matters = body.zone.any() ? 5e-3 : 1e-3;
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
   if (body.map() != nullptr && !said.forgetful && larger > matters * body.G * body.filled.volume &&
       std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {

@@ -123,10 +123,14 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
 void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_flow = 0.2;
   constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
+  // In the zone the map's B is rougher, and fourth_difference_filter damps the waves.
+  constexpr Real by_flow_in_zone = 0.05;
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
-    const Real rate = by_flow * courant_rate(snapshot.phi, mesh_, c) +
-                      by_wave * snapshot.wave_speed / cell_size(mesh_, c);
+    const Real courant = courant_rate(snapshot.phi, mesh_, c);
+    const Real rate = by_fit(snapshot, c)
+                          ? by_flow_in_zone * courant
+                          : by_flow * courant + by_wave * snapshot.wave_speed / cell_size(mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));
     if (memory.is_set[c] > 0 && part > 0) psi[c] += part * (log(memory.B(c, 1)) - psi[c]);
   }

@@ -80,10 +80,11 @@ class LogConformation {
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
   /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
-  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi) off the zone,
+  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi),
   /// Co the cell's Courant number, c the speed of the elastic wave. psi wears down with the way
   /// through the mesh, which does not touch the map. Where a stiff body hardly moves through the
-  /// mesh, waves along its surface grow: what the wave passes draws them back.
+  /// mesh, waves along its surface grow: what the wave passes draws them back. In the zone it is
+  /// 1 - exp(-0.05 Co): the map's B is rougher there, and a filter damps the waves.
   void recall(const FlowSnapshot& snapshot, Real dt);
   /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
   SymTensor isochoric(SymTensor p) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -92,7 +93,25 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
     forcing_->gradient = 0;
   }
+  set_pressure_of_rest();
   hold_backup();
+}
+
+// p = p_0 + q, Lap q = 0, q = p_b - p_0 at the openings: what they press with passes through the
+// fluid at once. p_0, the largest of them, keeps the solver's tolerance to their differences.
+void Solver::set_pressure_of_rest() {
+  if (!projection_.open()) return;
+  const std::vector<char>& open = momentum_.boundary().open;
+  openings_.set_pressure(p_b_, state_.u);
+  Real p_0 = -std::numeric_limits<Real>::max();
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (open[b] != 0) p_0 = std::max(p_0, p_b_[b]);
+  p_0 = global_max(p_0);
+  for (Index b = 0; b < mesh_.n_boundary(); ++b) q_b_[b] = open[b] != 0 ? p_b_[b] - p_0 : 0;
+  FaceField<Real> flux(mesh_);
+  projection_.project(flux, q_, grad_q_, q_b_, 0);
+  for (Index c = 0; c < mesh_.n_cells; ++c) state_.p[c] = p_0 + q_[c];
+  q_b_.fill(0);
 }
 
 void Solver::step(Real dt) {

@@ -72,7 +72,8 @@ class Solver {
   /// Collective. mesh must outlive the solver.
   Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup);
 
-  /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free.
+  /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free. The pressure is
+  /// that of fluid at rest between the openings, Lap p = 0; without openings it is zero.
   void start(const std::function<Vec3(const Vec3&)>& u_0);
 
   /// Collective. Puts a solid into the fluid; before the first step, any number of times, each
@@ -179,6 +180,7 @@ class Solver {
  private:
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
+  void set_pressure_of_rest();
   // The calls of a step: doc/theory/step.md. What each sets stands first.
   void hold_shape(Body& body);
   void advance_interface(Body& body, Real t);

@@ -126,14 +126,19 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
     sums[0].add((to - alpha[c]) * mesh.V[c]);
     sums[1].add(mesh.V[c] * to * (1 - to));
     moved.add(std::abs(to - alpha[c]) * mesh.V[c]);
+    s.change[i] = alpha[c];
     alpha[c] = to;
   }
   std::array<Real, 3> totals{};
   Sum::totals(totals, std::array{sums[0], sums[1], moved});
-  const Real factor = totals[1] > 0 ? std::clamp(-totals[0] / totals[1], Real{-1}, Real{1}) : 0;
-  for (const Index c : s.cells) alpha[c] += factor * alpha[c] * (1 - alpha[c]);
+  const bool whole = std::abs(totals[0]) <= totals[1];  // of the volume can be given back
+  const Real factor = totals[1] > 0 ? -totals[0] / totals[1] : 0;
+  for (std::size_t i = 0; i < s.cells.size(); ++i) {
+    Real& a = alpha[s.cells[i]];
+    a = whole ? a + factor * a * (1 - a) : s.change[i];
+  }
   mesh.halo.update(alpha);
-  return volume > 0 ? totals[2] / volume : 0;
+  return whole && volume > 0 ? totals[2] / volume : 0;
 }
 
 }  // namespace fsi::vof

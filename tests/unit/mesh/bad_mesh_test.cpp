@@ -272,6 +272,14 @@ TEST(GoodMesh, GroupsWithoutNamesAreCalledByNumber) {
   EXPECT_EQ(mesh.patches.front().name, "1");
 }
 
+// A named line between two cells is no wall, and is told.
+TEST(GoodMesh, NamedFacesInsideAreTold) {
+  const RawMesh raw = parse_gmsh("a", with_more(quads(), {}, {"1 2 1 1 6 7"}));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(check_mesh(raw, {}).patches.size(), 4u);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("1 faces of"), std::string::npos);
+}
+
 TEST(GoodMesh, HashTellsMeshesApart) {
   const auto hash = [](const std::string& text, const std::vector<std::string>& periodic) {
     return check_mesh(parse_gmsh("a", text), periodic).hash;

@@ -31,5 +31,18 @@ TEST(CentreLine, FollowsTheVessel) {
   EXPECT_THROW(flow::CentreLine(mesh, "left", "nowhere"), Error);
 }
 
+// In other units of length the line is the same one.
+TEST(CentreLine, ScalesWithTheVessel) {
+  const auto at_half = [](Real size) {
+    test::BoxFile box{.n = {20, 6, 6}, .length = {1, 1, 1}, .simplex = true};
+    box.moved = [size](const Vec3& x) { return size * Vec3{3 * x.x, x.y + 0.5 * x.x * x.x, x.z}; };
+    const Mesh mesh = test::read_box(box);
+    const flow::CentreLine line(mesh, "left", "right");
+    return line.at(line.length() / 2).first / size;
+  };
+  const Vec3 x = at_half(1);
+  for (const Real size : {1e-5, 1e6}) EXPECT_LT(norm(at_half(size) - x), 1e-6) << size;
+}
+
 }  // namespace
 }  // namespace fsi

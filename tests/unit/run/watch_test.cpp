@@ -62,7 +62,8 @@ TEST(Watch, ASolidWithoutAWholeIsTold) {
   EXPECT_EQ(text.find("parallel") != std::string::npos, rank() == 0) << text;
 }
 
-TEST(Watch, RoundOffIsNoSolidThatLeaves) {
+// Of 0.126: what a solid's specks are, which the flow sweeps ahead of it, is no leaving.
+TEST(Watch, SpecksAreNoSolidThatLeaves) {
   Disc disc;
   Body& body = disc.solver.bodies().front();
   Watch watch(1);
@@ -73,7 +74,8 @@ TEST(Watch, RoundOffIsNoSolidThatLeaves) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said(2e-30), "");
-  EXPECT_EQ(said(1e-6).empty(), rank() != 0);
+  EXPECT_EQ(said(1e-6), "");
+  EXPECT_EQ(said(1e-4).empty(), rank() != 0);
 }
 
 }  // namespace
