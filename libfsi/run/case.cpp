@@ -98,7 +98,7 @@ void warn_of_curved_planes(const Conditions& conditions, const Mesh& mesh) {
 void tell_of_peak(const PeakFlow& peak, const Physics& p, Real& length, Real& velocity) {
   std::printf(
       "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
-      "diameter %.4g; U = %.4g is the largest velocity there\n",
+      "diameter %.4g; U = %.4g is the largest velocity there (of a parabola: in a round tube)\n",
       peak.patch.c_str(), peak.t, p.rho * peak.mean * peak.length / p.mu_f, peak.mean, peak.length,
       peak.top);
   length = peak.length, velocity = peak.top;

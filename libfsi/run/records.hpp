@@ -40,7 +40,7 @@ struct Soundness {
   Real eigenvalue_min = 1;  ///< of B in cells more than half solid
   int pieces = 1;           ///< of a hundredth of its volume or more
   Real elastic_energy = 0;  ///< as the stress has it
-  Real shape_energy = 0;    ///< of the strain that the map tells; in the zone, of B
+  Real shape_energy = 0;    ///< of the strain that the map tells
 };
 
 /// Follows the solid from row to row. What it remembers is part of a checkpoint.
@@ -75,7 +75,7 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 
 /// Collective. Elastic energy of a solid's stress.
 Real elastic_energy(const Body& body);
-/// Collective. That of the strain that the map to the undeformed solid tells, in the zone of B; 0
+/// Collective. That of the strain that the map to the undeformed solid tells; 0
 /// without a map.
 Real shape_energy(const Body& body);
 
