@@ -163,9 +163,9 @@ void tell_of_inside(const RawMesh& raw, const std::vector<std::string>& periodic
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (inside[i] == 0 || std::ranges::find(periodic, raw.names[i]) != periodic.end()) continue;
     std::fprintf(stderr,
-                 "fsi: warning: %s: %lld faces of \"%s\" lie between two cells; the flow passes "
-                 "through them, they are no part of the patch\n",
-                 raw.file.c_str(), static_cast<long long>(inside[i] / 2), raw.names[i].c_str());
+                 "fsi: warning: %s: of \"%s\" so many faces lie between two cells: %lld; the flow "
+                 "passes through them, they are no part of the patch\n",
+                 raw.file.c_str(), raw.names[i].c_str(), static_cast<long long>(inside[i] / 2));
   }
 }
 

@@ -323,12 +323,13 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With less no cell has solid on all its sides.
+    // With less no cell has solid on all its sides. In a plane an ellipsoid's third axis is unseen.
     constexpr Real few = 2.5;
-    if (const Real through = s.thickness / edges[i]; through < few)
+    const Real through = s.thickness / edges[i];
+    if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))
       std::fprintf(stderr,
                    "fsi: warning: %s: %.2g cells through its thickness are too few, its speed and "
-                   "strain are wrong; take four or more (doc/howto/mesh.md)\n",
+                   "strain are wrong; take four or more (doc/howto/vessel.md)\n",
                    name.c_str(), through);
   }
   std::fflush(stdout);

@@ -201,7 +201,7 @@ SymTensor isochoric(SymTensor B, int dim) {
 
 Real elastic_energy(const Body& body) {
   CellField<SymTensor> B = B_field(body, body.mesh);
-  // The paper's B loses its determinant, and only its deviator makes stress.
+  // The paper's B loses its determinant: the energy of the shape that it tells.
   if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
     for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
   return body.law.energy(body.G, B, body.alpha, body.mesh);

@@ -73,7 +73,7 @@ class SolidRecord {
 /// B of every cell: the unit tensor outside the solid.
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 
-/// Collective. Elastic energy of a solid's stress.
+/// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
 Real elastic_energy(const Body& body);
 /// Collective. That of the strain that the map to the undeformed solid tells; 0
 /// without a map.

@@ -155,8 +155,8 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.kinematics = read_kinematics(read, of);
   solid.solid.memory = read.flag(
       of + "memory", true,
-      "the run keeps a map to the undeformed solid and holds shape and strain to it; on quads, "
-      "hexes and prisms, not on triangles and tetrahedra, nor with left_cauchy_green");
+      "the run keeps a map to the undeformed solid and holds shape and strain to it; not with "
+      "left_cauchy_green");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));

@@ -105,7 +105,7 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
   }
   constexpr Real apart = 0.5;  // of the larger
   // Of G times the volume. The map of triangles and tetrahedra tells strains to some per cent.
-  const Real matters = body.zone.any() ? 5e-3 : 1e-3;
+  const Real matters = body.zone.all() ? 5e-3 : 1e-3;
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
   if (body.map() != nullptr && !said.forgetful && larger > matters * body.G * body.filled.volume &&
       std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {

@@ -26,9 +26,9 @@ namespace fsi::solid {
 class ReferenceMap {
  public:
   /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
-  /// Beside psi it is carried along the surface by the velocity that strains psi, so that both stay
-  /// alike. A cell in which it has lost its volume is then fitted to those around it, as where the
-  /// solid is new.
+  /// Beside psi it is carried along the surface by the velocity that strains psi off the zone of
+  /// simplices, so that both stay alike. A cell in which it has lost its volume is then fitted to
+  /// those around it, as where the solid is new.
   enum class Role { alone, beside_psi };
   /// Collective. walls: the patches that hold the velocity; used beside psi. symmetry: of the
   /// planes that cut the undeformed solid, beyond which the map goes on as its image. A plane that

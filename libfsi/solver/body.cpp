@@ -231,7 +231,7 @@ void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   if (off_walls) off_walls->set(fraction_of_strain(), mesh);
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
-  if (remembers()) memory->resume(alpha, grad);
+  if (remembers()) memory->resume(fraction_of_memory(), grad);
   update_B();
 }
 

@@ -128,6 +128,9 @@ struct Body {
   }
   /// The same, with the cells at walls.
   const CellField<Real>& fraction_of_strain() const { return strain_by_flux() ? alpha_mid : alpha; }
+  /// The fraction that tells which cells carry the map beside psi: as psi, off the walls of
+  /// tetrahedra.
+  const CellField<Real>& fraction_of_memory() const { return off_walls ? off_walls->alpha : alpha; }
   /// Whether B is known around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);

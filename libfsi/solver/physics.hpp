@@ -33,8 +33,7 @@ struct Solid {
   solid::Law law{};     ///< of its elastic stress
   Real rho = 0;         ///< density; 0: that of the fluid
   /// Whether a map to the undeformed solid holds shape and strain to each other; not with
-  /// left_cauchy_green, nor on meshes with triangles or tetrahedra, where the map's
-  /// gradient is too rough.
+  /// left_cauchy_green.
   bool memory = true;
 };
 

@@ -195,14 +195,15 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
-  map.mark(body.alpha);
+  if (body.off_walls) body.off_walls->set(body.fraction_of_strain(), body.mesh);
+  map.mark(body.fraction_of_memory());
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
                                      .u = flow.u,
                                      .L = L,
                                      .stencil = flow.pressure.cells,
                                      .weights = body.weights};
-  map.transport(body.alpha, snapshot, body.dt, body.grad);
+  map.transport(body.fraction_of_memory(), snapshot, body.dt, body.grad);
 }
 
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {

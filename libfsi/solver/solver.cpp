@@ -235,6 +235,7 @@ void Solver::project(State& state, Real dt) {
   if (!projection_.orthogonal())
     flow::add_viscous_pressure(state.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
                                mesh_);
+  openings_.set_pressure(p_b_, state.u);  // of this step, as p is: the balance of energy takes both
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;
 }

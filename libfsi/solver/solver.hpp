@@ -73,7 +73,7 @@ class Solver {
   Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup);
 
   /// Collective. Sets the velocity at t = 0 and makes its flux divergence-free. The pressure is
-  /// that of fluid at rest between the openings, Lap p = 0; without openings it is zero.
+  /// that of fluid at rest between the openings, Lap p = 0; without openings it stays as it is.
   void start(const std::function<Vec3(const Vec3&)>& u_0);
 
   /// Collective. Puts a solid into the fluid; before the first step, any number of times, each

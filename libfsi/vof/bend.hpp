@@ -13,8 +13,9 @@ struct Bend {
   Real mean = 0;  ///< of r . K . r over the plane's part in the cell
 };
 
-/// Whether cell c has a bend: a tetrahedron. On other cells the memory of the shape takes a body
-/// back that runs ahead, and where it is off a soft disc under a lid fares better with planes.
+/// Whether cell c has a bend: a tetrahedron, where planes let a body run ahead most. On other cells
+/// the memory of the shape is enough, and without it a soft disc under a lid fares better with
+/// planes.
 bool bends(const Mesh& mesh, Index c);
 /// Collective. Whether one of them does on any rank.
 bool any_cell_bends(const Mesh& mesh);

@@ -100,6 +100,8 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
   // many cells ask for more than they may get, its steps go to and fro. The change grows with the
   // shift, so the two are always on their own sides.
   constexpr Real none = std::numeric_limits<Real>::infinity();
+  const Real longest =
+      std::pow(volume, Real{1} / mesh.dim) / 8;  // of a step, where the area is small
   Real off = volume, shift = 0, little = -none, much = none;
   for (int i = 0; i < rounds; ++i) {
     std::array<Real, 2> totals{};
@@ -107,7 +109,7 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
     off = totals[0];
     if (std::abs(off) <= enough * volume) break;
     (off < 0 ? little : much) = shift;
-    const Real next = totals[1] > 0 ? shift - off / totals[1] : none;
+    const Real next = totals[1] > 0 ? shift - std::clamp(off / totals[1], -longest, longest) : none;
     if (next > little && next < much) {
       shift = next;
     } else if (much - little < none) {

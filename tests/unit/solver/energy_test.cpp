@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/energy.hpp"
@@ -144,6 +145,26 @@ TEST(EnergyBalance, ThePlatesDoWhatViscosityTakes) {
   }
   EXPECT_NEAR(energy.work(), 0.5 * 0.2, 1e-9);
   EXPECT_EQ(energy.made(), 0);
+}
+
+// The level of the pressure does no work on what flows through, however large it is and however it
+// changes: what it does at the inlet it takes back at the outlet.
+TEST(EnergyBalance, ALevelThatPulsesDoesNoWork) {
+  const Mesh mesh = test::read_box({.n = {16, 8, 0}, .length = {2, 1, 1}, .simplex = true});
+  const OfTime pulse([](Real t) { return 1e4 + 2e3 * std::sin(2 * std::numbers::pi * t); });
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+                {.conditions = {{"left", FlowRate{.rate = 0.5}},
+                                {"right", Opening{pulse}},
+                                {"bottom", Wall{}},
+                                {"top", Wall{}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  EnergyBalance energy(solver);
+  for (int i = 0; i < 60; ++i) {
+    solver.step(0.01);
+    energy.add(solver, 0.01);
+  }
+  EXPECT_LE(energy.part_made(), 1e-3);
+  EXPECT_LE(std::abs(energy.work()), 1);
 }
 
 // A stiff disc makes no energy at the steps that the solver allows; at steps 2.5 times as long it
