@@ -5,9 +5,10 @@
 
 namespace fsi::geometry {
 
-/// The plane through x with the unit normal n.
+/// A plane of symmetry.
 struct Mirror {
-  Vec3 x, n;
+  Vec3 x;  ///< a point of the plane
+  Vec3 n;  ///< unit normal
 
   /// Image of a direction.
   Vec3 of_direction(const Vec3& v) const { return v - (2 * dot(v, n)) * n; }
