@@ -111,8 +111,9 @@ def navigation(stage, contents):
     nav, named = [{"libfsi": "index.md"}, {"Gallery": "gallery.md"}], set()
     for part in re.split(r"^## +", contents, flags=re.M)[1:]:
         title = part.split("\n")[0].split(":")[0].strip()
+        items = re.findall(r"^- \[.*(?:\n {2}.*)*", part, re.M)  # an entry and its further lines
         pages = [stage.place(os.path.normpath(os.path.join("doc", link)))
-                 for link in re.findall(r"^- \[[^\]]*\]\(([^()\s#]+)\)", part, re.M)]
+                 for item in items for link in re.findall(r"\]\(([^()\s#:]+)\)", item)]
         for page in list(pages):
             if os.path.basename(page) == "README.md":
                 folder = os.path.dirname(page)
