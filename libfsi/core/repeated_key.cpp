@@ -14,8 +14,11 @@ struct Names {
   std::set<std::string> seen;
   std::string twice;  ///< the first that came again
 
+  /// PETSc's options know no capitals.
   void note(const std::string& name) {
-    if (!seen.insert(name).second && twice.empty()) twice = name;
+    std::string plain = name;
+    for (char& c : plain) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!seen.insert(plain).second && twice.empty()) twice = name;
   }
 };
 

@@ -126,6 +126,18 @@ void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
   }
 }
 
+Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end) {
+  Real least = end;
+  const auto follow = [&](const OfTime& given) { least = std::min(least, step_of(given, t, end)); };
+  for (const Condition& condition : conditions)
+    std::visit(
+        Overloaded{[&](const FixedVelocity& inflow) { follow(inflow.pace); },
+                   [&](const FlowRate& inflow) { follow(inflow.rate); },
+                   [&](const Opening& opening) { follow(opening.pressure); }, [](const auto&) {}},
+        condition);
+  return least;
+}
+
 bool fixes_velocity(const Condition& condition) {
   return std::holds_alternative<Wall>(condition) || prescribes_flow(condition);
 }

@@ -4,13 +4,12 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/field/inflow.hpp"
+#include "libfsi/field/of_time.hpp"
 
 namespace fsi {
 
@@ -24,21 +23,7 @@ struct Slip {};
 /// Prescribed velocity u(x, t).
 struct FixedVelocity {
   std::function<Vec3(const Vec3& x, Real t)> u;  ///< velocity at x and t
-};
-/// A number that may depend on time.
-class OfTime {
- public:
-  /// A constant.
-  OfTime(Real constant = 0) : at_([constant](Real) { return constant; }) {}
-  template <class Function>
-  /// Any function of time.
-  requires std::is_invocable_r_v<Real, Function, Real> OfTime(Function function)
-      : at_(std::move(function)) {}
-  /// Its value at time t.
-  Real operator()(Real t) const { return at_(t); }
-
- private:
-  std::function<Real(Real)> at_;
+  OfTime pace{};  ///< its factor that depends on time alone: steps follow what it does
 };
 /// A flow rate into the domain (negative: out of it), spread over the patch.
 struct FlowRate {
@@ -78,6 +63,9 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 /// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                            const std::vector<Condition>& conditions, Real t, const Mesh& mesh);
+
+/// How long a step from t may be for all that the conditions give over time (`step_of`).
+Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end);
 
 /// Whether the condition gives the velocity (for its gradient and the implicit viscous term).
 bool fixes_velocity(const Condition& condition);

@@ -195,8 +195,10 @@ const GmshType& Reader::element_type(int number) {
   for (const GmshType& type : known_types) {
     if (type.number == number) return type;
   }
-  in_.fail("element type " + std::to_string(number) +
-           "; only first-order triangles, quads, tets, hexes, prisms and pyramids are known");
+  in_.fail(
+      "element type " + std::to_string(number) +
+      "; only first-order triangles, quads, tets, hexes, prisms and pyramids are known (in gmsh: "
+      "-order 1, Mesh.ElementOrder = 1)");
 }
 
 void Reader::element(const GmshType& type, std::int64_t number, std::int32_t entity,

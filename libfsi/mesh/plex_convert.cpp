@@ -49,6 +49,8 @@ void write_plex(const std::string& file, const CellList& whole,
 std::int64_t convert_mesh(const std::string& from, const std::string& to,
                           const std::vector<std::string>& periodic) {
   require(is_mesh_file(to), "the mesh file to write, \"" + to + "\", must end in .h5");
+  require(!is_mesh_file(from),
+          "the mesh file \"" + from + "\" is .h5 already; a gmsh file is what becomes one");
   const std::string temporary = to + ".tmp";
   CellList whole;
   on_first_rank([&] {

@@ -109,6 +109,13 @@ Mat new_matrix(const Mesh& mesh, std::vector<Index>& face) {
   return matrix;
 }
 
+/// PETSc refuses a guess where the preconditioner alone, such as -p_pc_type lu, is the solver.
+void start_from_zero_where_direct(KSP solver) {
+  PetscBool direct = PETSC_FALSE;
+  FSI_PETSC(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver), KSPPREONLY, &direct));
+  if (direct == PETSC_TRUE) FSI_PETSC(KSPSetInitialGuessNonzero(solver, PETSC_FALSE));
+}
+
 void set_defaults(const std::string& prefix, Method method, KSP solver) {
   FSI_PETSC(KSPSetType(solver, KSPCG));
   FSI_PETSC(KSPCGUseSingleReduction(solver, ranks() > 1 ? PETSC_TRUE : PETSC_FALSE));
@@ -157,6 +164,7 @@ LinearSystem::LinearSystem(const Mesh& mesh, const std::string& name, Method met
   FSI_PETSC(KSPSetTolerances(h.solver, relative_tolerance, no_absolute, PETSC_DEFAULT, 500));
   check_solver_options(name + "_");
   FSI_PETSC(KSPSetFromOptions(h.solver));
+  start_from_zero_where_direct(h.solver);
   h.cycle = method == Method::multigrid && !is_given("-" + name + "_pc_type");
 }
 

@@ -204,6 +204,11 @@ Real solid_share(const Mesh& mesh, const std::vector<SolidSetup>& solids) {
   return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
 }
 
+/// The solid's shape. A plane cuts it through its centre, whatever z that has.
+shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s) {
+  return mesh.dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
+}
+
 /// Whether an option tells of the solid's shape and place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
@@ -255,24 +260,25 @@ std::string differences(const std::string& before, const std::string& now) {
   std::set<std::string> names;
   for (const auto* side : {&old, &current})
     for (const auto& item : *side) names.insert(item.first);
-  std::string text;
-  bool solid = false;
+  std::string text, undeformed;
   for (const std::string& name : names) {
     const auto was = old.find(name), is = current.find(name);
     if (was != old.end() && is != current.end() && was->second == is->second) continue;
-    text += (text.empty() ? "-" : ", -") + name + " ";
-    text += is == current.end() ? "left out" : is->second;
-    text += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
-    solid = solid || of_undeformed_solid(name);
+    std::string& list = of_undeformed_solid(name) ? undeformed : text;
+    list += (list.empty() ? "-" : ", -") + name + " ";
+    list += is == current.end() ? "left out" : is->second;
+    list += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
   }
-  if (text.empty()) return "";
-  return "goes on with other values than those of the checkpoint: " + text +
-         (solid ? "; the solid's shape and place stay those of the checkpoint" : "");
+  require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
+                                  undeformed + "; give what was given there");
+  return text.empty() ? "" : "goes on with other values than those of the checkpoint: " + text;
 }
 
 void put_solids(Solver& solver, const Case& setup) {
   for (const SolidSetup& s : setup.solids) {
-    solver.put_solid(s.solid);
+    Solid solid = s.solid;
+    solid.shape = shape_in(solver.mesh(), s);
+    solver.put_solid(solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
@@ -288,7 +294,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   const PeakFlow peak =
       velocity == 0 ? peak_flow(setup.flow.conditions, mesh, setup.time.end) : PeakFlow{};
   std::vector<Real> edges;
-  for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(s.solid.shape, mesh));
+  for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh, s), mesh));
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
   const Real share = ranks() > 1 && !setup.solids.empty() ? solid_share(mesh, setup.solids) : 0;
   if (rank() != 0) return;
@@ -340,6 +346,11 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   // The solid's way through the flow has a limit of its own under the same name.
   const Real carried = solver.body() != nullptr ? solver.carried_dt() : Limit{}.dt;
   std::vector<Limit> all{{std::min(solver.advective_dt(time.courant), carried), "advective"}};
+  // What is given over time may come where the flow is slow and would allow any step.
+  all.push_back({solver.conditions_dt(time.end), "conditions"});
+  // A load answers a flow that changes over some steps of the pressure.
+  constexpr int least_steps = 20;
+  all.push_back({time.end / least_steps, "end"});
   // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
   // run is then small enough.
   constexpr int steps_of_start = 10;

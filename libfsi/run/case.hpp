@@ -37,6 +37,7 @@ struct SolidSetup {
   Real angle = 0;              ///< between that axis and x when placed, in degrees
   std::string shape_name;      ///< as the option has it
   Real thickness = 0;          ///< the least of its dimensions
+  Real centre_z = 0;           ///< which a 2-D run does not know
   std::string options;         ///< what its options begin with: "solid_" or "solids_NAME_"
 };
 
@@ -68,7 +69,7 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path = {
 std::string simulated(const Options& options);
 
 /// A sentence on where this run's `simulated` differs from that of the run it goes on from; ""
-/// where it does not.
+/// where it does not. Errors: Error{input} where it is in the shape or place of a solid.
 std::string differences(const std::string& before, const std::string& now);
 
 /// Collective. Prints what the run is about: the mesh and its figures, with a warning where one is

@@ -97,15 +97,16 @@ class PatchOptions {
     const OfTime factor =
         of_time("velocity_factor", "factor", "1", "velocity: what it is multiplied by");
     if (file.empty() || options_.help())
-      return FixedVelocity{[=](const Vec3&, Real t) { return factor(t) * u; }};
+      return FixedVelocity{[=](const Vec3&, Real t) { return factor(t) * u; }, factor};
     const std::vector<std::vector<Real>> rows =
         read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}});
-    return FixedVelocity{[rows, factor](const Vec3& x, Real t) {
+    const auto nearest_row = [rows, factor](const Vec3& x, Real t) {
       const auto at = [](const std::vector<Real>& row) { return Vec3{row[0], row[1], row[2]}; };
       const auto nearest = std::ranges::min_element(
           rows, {}, [&](const std::vector<Real>& row) { return norm2(x - at(row)); });
       return factor(t) * Vec3{(*nearest)[3], (*nearest)[4], (*nearest)[5]};
-    }};
+    };
+    return FixedVelocity{nearest_row, factor};
   }
   Condition opening(const std::string& type) {
     Opening opening{
@@ -269,6 +270,7 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
     const auto [at, along] = line.at(s);
     const shapes::Shape aligned = shapes::align(solid.about_origin, along);
     const Real turn = solid.angle * std::numbers::pi / 180;
+    solid.centre_z = at.z;
     solid.solid.shape = shapes::translate(shapes::rotate(aligned, {0, 0, 1}, turn), at);
     if (rank() != 0) continue;
     const std::string name = solid.solid.name.empty() ? "solid" : "solid " + solid.solid.name;

@@ -158,8 +158,9 @@ void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::R
 
 /// Number of a limit in flow.csv.
 Real limit_code(const std::string& name) {
-  constexpr std::array<std::string_view, 9> names{
-      "none", "fixed", "advective", "elastic", "start", "step_max", "event", "retry", "strain"};
+  constexpr std::array<std::string_view, 11> names{"none",   "fixed",      "advective", "elastic",
+                                                   "start",  "step_max",   "event",     "retry",
+                                                   "strain", "conditions", "end"};
   const auto at = std::ranges::find(names, name);
   FSI_ASSERT(at != names.end());
   return static_cast<Real>(at - names.begin());

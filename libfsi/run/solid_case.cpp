@@ -115,9 +115,12 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
           "options -" + of + "path and -" + of +
               "center exclude each other: the path says where the solid starts; give one of them");
   const Vec3 unset{0.5, 0.5, 0.5};
-  const Vec3 centre = on_path ? unset
-                              : options.vec3(of + "center", unset,
-                                             {.help = "centre of the shape", .unit = "length"});
+  const Vec3 centre =
+      on_path ? unset
+              : options.vec3(
+                    of + "center", unset,
+                    {.help = "centre of the shape; its z is left out in 2-D", .unit = "length"});
+  solid.centre_z = centre.z;
   if (options.given(of + "axis") || options.help()) {
     const Vec3 axis = options.vec3(
         of + "axis", {1, 0, 0}, {.help = "axis of revolution, in place of the angle", .unit = ""});

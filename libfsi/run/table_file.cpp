@@ -119,7 +119,7 @@ OfTime series(const std::string& file, Real period, const ColumnNames& value) {
             "file \"" + file + "\": its times must grow from row to row");
   require(period == 0 || period >= rows.back()[0] - rows.front()[0],
           "file \"" + file + "\" is longer than its period");
-  return [rows, period](Real t) {
+  const auto at = [rows, period](Real t) {
     const Real start = rows.front()[0];
     if (period > 0) t = start + (t - start) - period * std::floor((t - start) / period);
     const auto next =
@@ -132,6 +132,18 @@ OfTime series(const std::string& file, Real period, const ColumnNames& value) {
     const Real t_b = behind ? start + period : (*next)[0], b = behind ? rows[0][1] : (*next)[1];
     return a[1] + (b - a[1]) * (t - a[0]) / (t_b - a[0]);
   };
+  // Between two times the extremes are at rows or at the ends.
+  const auto range = [rows, period, at](Real a, Real b) {
+    OfTime::Range found{std::min(at(a), at(b)), std::max(at(a), at(b))};
+    const Real first = period > 0 ? std::floor((a - rows[0][0]) / period) * period : 0;
+    const Real last = period > 0 ? std::min(b - rows[0][0], first + 2 * period) : first;
+    for (Real turn = first; turn <= last; turn += period > 0 ? period : 1)
+      for (const std::vector<Real>& row : rows)
+        if (row[0] + turn > a && row[0] + turn < b)
+          found = {std::min(found[0], row[1]), std::max(found[1], row[1])};
+    return found;
+  };
+  return {at, range};
 }
 
 }  // namespace fsi

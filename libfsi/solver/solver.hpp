@@ -112,6 +112,9 @@ class Solver {
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   Real advective_dt(Real courant) const;
+  /// How long the next step may be for what the conditions give over time, in a run to `end`
+  /// (`step_of`).
+  Real conditions_dt(Real end) const { return fsi::conditions_dt(conditions_, state_.t, end); }
   /// Collective. Largest dt that moves the solid by a Courant number of one at most: it stands
   /// between two steps and goes on by half of this and half of the last one.
   Real carried_dt() const;

@@ -84,6 +84,8 @@ def solid_surface(snapshot, carry=(), about=None, rounds=100):
     of them may be traction, the size of the fluid's stress on the surface beyond its mean pressure. The
     middle lies as near as can be to the place `about` (default: the middle of the mesh).
     """
+    if snapshot.mesh.dim == 2:
+        raise ValueError("a run in two dimensions has no surface; its line is where alpha is 0.5")
     fields = ["stress" if name == "traction" else name for name in carry]
     fields = [name for name in fields if name in snapshot]
     bodies = [_body(snapshot, name, fields, about, rounds) for name in snapshot.bodies()]

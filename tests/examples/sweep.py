@@ -118,6 +118,10 @@ def main():
     bad = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     check(bad.returncode == 2 and '"1" has not a value for each of' in bad.stderr,
           f"a line that is not whole is refused: {bad.stderr}")
+    os.remove(points)
+    bad = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    check(bad.returncode == 2 and f'"{points}" cannot be read' in bad.stderr,
+          f"so is a table that is not there: {bad.stderr}")
     return 1 if failures else 0
 
 

@@ -35,6 +35,7 @@ TEST(Arguments, EveryWordBelongsToAnOption) {
 TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
   EXPECT_EQ(repeated_key("a: 1\nb:\n  a: 2\n  c: 3\nc: 4\n"), "");
   EXPECT_EQ(repeated_key("a: 1\nb: 2\na: 3\n"), "a");
+  EXPECT_EQ(repeated_key("solids:\n  a: {shape: disk}\n  A: {shape: disk}\n"), "solids_A_shape");
   EXPECT_EQ(repeated_key("solid:\n  shape: torus\n  density: 1\nfluid:\n  density: 1\n"), "");
   EXPECT_EQ(repeated_key("solid:  # soft\n  shape: torus\n\nsolid_shape: disk\n"), "solid_shape");
   EXPECT_EQ(repeated_key("a:\n  b:\n    c: 1\n  d: 2\na:\n  b:\n    c: 1\n"), "a_b_c");

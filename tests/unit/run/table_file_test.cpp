@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -35,6 +36,18 @@ TEST(Series, JoinsItsRowsByLinesAndComesAgain) {
   for (const auto& [t, value] :
        {std::pair{0.25, 2.0}, {3.25, 2.0}, {0.875, 1.5}, {7.875, 1.5}, {2.0, 1.0}, {-0.125, 1.5}})
     EXPECT_NEAR(again(t), value, 1e-13) << t;
+}
+
+// The extremes of a pulse between two times that both lie beside it.
+TEST(Series, KnowsItsRangeBetweenTwoTimes) {
+  const File file("t,flow_rate\n0,1\n1,1\n1.1,5\n1.2,1\n1.6,-2\n2,1\n");
+  const OfTime once = series(file.path), again = series(file.path, 2);
+  EXPECT_EQ(once.range(0.2, 3), (OfTime::Range{-2, 5}));
+  EXPECT_EQ(once.range(0.2, 0.9), (OfTime::Range{1, 1}));
+  EXPECT_EQ(once.range(2, 9), (OfTime::Range{1, 1}));
+  EXPECT_EQ(again.range(6.5, 7.15), (OfTime::Range{1, 5}));
+  EXPECT_EQ(again.range(0, 100), (OfTime::Range{-2, 5}));
+  EXPECT_EQ(step_of(once, 0, 9), 9 * std::pow(0.75, 8)) << "it does not leap over the pulse";
 }
 
 TEST(Series, WhatIsNoTableIsRefused) {

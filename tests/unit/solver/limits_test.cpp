@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "libfsi/run/case.hpp"
 #include "tests/unit/support/box_mesh.hpp"
@@ -28,6 +29,27 @@ TEST(StableStep, AdvectiveUnlessFixed) {
   EXPECT_EQ(fixed.dt, 0.3);
   EXPECT_EQ(fixed.name, "fixed");
   EXPECT_EQ(stable_dt(flow.solver, {.end = 1000, .step_max = 1e-3}).name, "step_max");
+}
+
+// A flow at rest allows any step, what stands at its openings does not.
+TEST(StableStep, FollowsWhatIsGivenOverTime) {
+  const Mesh mesh = test::box_mesh({.n = {8, 4, 0}});
+  const auto limit_at_rest = [&](const OfTime& pressure) {
+    Conditions conditions{{"bottom", Wall{}}, {"top", Wall{}}, {"right", Opening{}}};
+    conditions["left"] = Opening{pressure};
+    Solver solver(mesh, {}, {.conditions = conditions});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    for (int i = 0; i < 10; ++i) solver.advance(1e-9);
+    return stable_dt(solver, {.end = 40});
+  };
+  const Limit sine =
+      limit_at_rest(OfTime([](Real t) { return 1e-9 * std::sin(2 * std::numbers::pi * t); }));
+  EXPECT_EQ(sine.name, "conditions");
+  EXPECT_LT(sine.dt, 1.0 / 30);
+  EXPECT_GT(sine.dt, 1.0 / 60);
+  const Limit constant = limit_at_rest(0);
+  EXPECT_EQ(constant.name, "end");
+  EXPECT_EQ(constant.dt, 2);
 }
 
 TEST(StableStep, GrowsByATenthFromTheFirst) {

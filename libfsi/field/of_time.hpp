@@ -1,0 +1,44 @@
+#pragma once
+// What is given over time.
+
+#include <array>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "libfsi/core/types.hpp"
+
+namespace fsi {
+
+/// A number that may depend on time.
+class OfTime {
+ public:
+  /// The least and the largest value between two times.
+  using Range = std::array<Real, 2>;
+  /// A constant.
+  OfTime(Real constant = 0)
+      : at_([constant](Real) { return constant; }), range_([constant](Real, Real) {
+          return Range{constant, constant};
+        }) {}
+  template <class Function>
+  /// Any function of time. Its range is that of samples.
+  requires std::is_invocable_r_v<Real, Function, Real> OfTime(Function function)
+      : at_(std::move(function)) {}
+  /// A function of time and its range between two times.
+  OfTime(std::function<Real(Real)> function, std::function<Range(Real, Real)> range)
+      : at_(std::move(function)), range_(std::move(range)) {}
+  /// Its value at time t.
+  Real operator()(Real t) const { return at_(t); }
+  /// Its range from time a to time b.
+  Range range(Real a, Real b) const;
+
+ private:
+  std::function<Real(Real)> at_;
+  std::function<Range(Real, Real)> range_;
+};
+
+/// How long a step from t may be in which `given` changes by no more than a tenth of its range in
+/// [0, end]. Never less than a part in 1e5 of end, in which it may jump; end where it is constant.
+Real step_of(const OfTime& given, Real t, Real end);
+
+}  // namespace fsi
