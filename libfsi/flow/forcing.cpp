@@ -38,11 +38,11 @@ void Forcing::renew(Projection& projection, const Density& density, Real absolut
   mean_1_ = mean(phi_1_);
 }
 
-void Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt) {
+void Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt) {
   const Real c = (target_ - mean(phi)) / mean_1_;
   for (Index i = 0; i < mesh_.n_cells; ++i) u[i] += c * u_1_[i];
   for (Index f = 0; f < mesh_.n_internal; ++f) phi[f] += c * phi_1_[f];
-  gradient += rho * c / dt;
+  gradient += (rho / dt + friction) * c;
 }
 
 }  // namespace fsi::flow

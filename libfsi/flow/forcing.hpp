@@ -24,7 +24,8 @@ class Forcing {
   void renew(Projection& projection, const Density& density, Real absolute);
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
-  void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real dt);
+  /// friction: what it adds to rho / dt (bulk_friction.hpp).
+  void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt);
 
   /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.
   Real gradient = 0;

@@ -93,6 +93,26 @@ void Momentum::set_theta(Real theta_now) {
   }
 }
 
+template <class Coefficient>
+void Momentum::add_diffusion(const Coefficient& coefficient) {
+  const Index dim = mesh_.dim;
+  VectorMatrix& A = system_.matrix();
+  const auto add = [&](Index c, const Vec3& a) {
+    if (c >= mesh_.n_owned) return;
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
+  };
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Real a = coefficient(f) * weights_.g[f];
+    if (f >= mesh_.n_internal) {
+      add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
+      continue;
+    }
+    A.off_diagonal[f] = -a;
+    add(mesh_.owner[f], {a, a, a});
+    add(mesh_.neighbour[f], {a, a, a});
+  }
+}
+
 void Momentum::assemble(const MomentumTerms& terms, Real dt) {
   const Index dim = mesh_.dim;
   const FaceField<Real>&mu = terms.mu, &kappa = terms.kappa;
@@ -102,21 +122,26 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
       const Real rho = terms.rho ? (*terms.rho)[c][static_cast<int>(i)] : rho_;
       A.diagonal[c * dim + i] = rho * mesh_.V[c] / dt;
     }
-  const auto add = [&](Index c, const Vec3& a) {
-    if (c >= mesh_.n_owned) return;
-    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
-  };
-  for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Real a = (theta_f_[f] * mu[f] + kappa[f]) * weights_.g[f];
-    if (f >= mesh_.n_internal) {
-      add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
-      continue;
-    }
-    A.off_diagonal[f] = -a;
-    add(mesh_.owner[f], {a, a, a});
-    add(mesh_.neighbour[f], {a, a, a});
-  }
+  add_diffusion([&](Index f) { return theta_f_[f] * mu[f] + kappa[f]; });
   system_.renewed();
+}
+
+Real Momentum::least_decay() {
+  const bool held = std::ranges::any_of(implicit_, [](const Vec3& a) {
+    return a == Vec3{1, 1, 1};
+  });
+  if (all_of_ranks(!held)) return 0;
+  const Index dim = mesh_.dim;
+  std::ranges::fill(system_.matrix().diagonal, 0.0);
+  add_diffusion([](Index) { return 1; });
+  system_.renewed();
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = 0; i < dim; ++i) b_[c * dim + i] = mesh_.V[c];
+  std::ranges::fill(w_, 0.0);
+  system_.solve(w_, b_);
+  Real most = 0;
+  for (Index i = 0; i < mesh_.n_owned * dim; ++i) most = std::max(most, w_[i]);
+  return 1 / global_max(most);
 }
 
 void Momentum::hold_old() {
@@ -126,17 +151,20 @@ void Momentum::hold_old() {
 
 // Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,
 // three quarters of it at 0.72 best (0.91), the line nowhere; with viscosity the line bears more.
-Real Momentum::ab3_weight(const FaceField<Real>& phi, Real dt) const {
+Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) const {
   constexpr Real whole = 0.66, none = 0.9;
-  Real rate = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c) rate = std::max(rate, courant_rate(phi, mesh_, c));
-  return std::clamp((none - global_max(rate) * dt) / (none - whole), Real{0}, Real{1});
+  Real part = 0;
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    const Real courant = dt * courant_rate(terms.phi, mesh_, c);
+    part = std::max(part, mesh_.simplex(c) ? std::min(courant, terms.explicit_courant) : courant);
+  }
+  return std::clamp((none - global_max(part)) / (none - whole), Real{0}, Real{1});
 }
 
 // Histories are written in place: checkpoints and backups know their address.
 void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   auto& [last, before, rest] = history_;
-  const auto w = adams_bashforth(dt, dt_old, dt_before, ab3_weight(terms.phi, dt));
+  const auto w = adams_bashforth(dt, dt_old, dt_before, ab3_weight(terms, dt));
   const auto subtract = [&](Index c, const Vec3& rate) {
     if (!terms.rho) return void(rhs_[c] -= rho_ * rate);
     const Vec3& rho = (*terms.rho)[c];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct MomentumTerms {
   /// Density of the cells for each component, owned and halo; none: that of the fluid everywhere.
   const CellField<Vec3>* rho = nullptr;
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
+  /// Courant number beyond which kappa takes the convection of triangles and tetrahedra (Courant).
+  Real explicit_courant = std::numeric_limits<Real>::max();
 };
 
 /// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
@@ -92,6 +95,9 @@ class Momentum {
     CellField<Vec3> u;        ///< in the cells
     BoundaryField<Vec3> u_b;  ///< at the boundary
   };
+  /// Collective, before the first step. 1 / max w, -Lap w = 1 and w = 0 where the velocity is
+  /// given: all flow past those patches decays by at least nu times that. 0 without such a patch.
+  Real least_decay();
   /// Second order in time from now on where theta = 1 at all faces; before the first step.
   void hold_old();
   /// Empty on regular meshes without hold_old.
@@ -107,13 +113,16 @@ class Momentum {
 
  private:
   /// Collective. The part of AB3 in a step of dt.
-  Real ab3_weight(const FaceField<Real>& phi, Real dt) const;
+  Real ab3_weight(const MomentumTerms& terms, Real dt) const;
   void set_theta(Real theta_now);
   void add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_rest(const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_sources(const MomentumTerms& terms);
   void assemble(const MomentumTerms& terms, Real dt);
+  /// Adds to the system's matrix -sum_f a_f g (w_N - w_P), a_f = coefficient(f).
+  template <class Coefficient>
+  void add_diffusion(const Coefficient& coefficient);
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
   Real extrapolated(Real dt) const;
 

@@ -9,6 +9,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/options.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/courant.hpp"
 #include "libfsi/io/vtk_file.hpp"
 #include "libfsi/mesh/convert.hpp"
 #include "libfsi/mesh/figures.hpp"
@@ -184,12 +185,14 @@ Treatment treatment(const Mesh& mesh, const FaceWeights& weights) {
     if (weights.place[f] >= 0) ++t.n_irregular;
     sums[0].add(beta), sums[1].add(theta);
   }
+  std::vector<Real> swept(static_cast<std::size_t>(mesh.n_owned));
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Vec3 sum;
     for (const Index f : mesh.cell_faces[c])
       for (int k = 0; k < 3; ++k) sum[k] += std::abs(mesh.Sf[f][k]);
-    t.rate[c] = std::max({sum.x, sum.y, sum.z}) / (2 * mesh.V[c]);
+    swept[c] = std::max({sum.x, sum.y, sum.z}) / 2;
   }
+  t.rate = flow::Courant(mesh).of_neighbourhood(swept);
   t.n_internal = global_sum(t.n_internal), t.n_irregular = global_sum(t.n_irregular);
   std::array<Real, 2> totals{};
   Sum::totals(totals, sums);

@@ -73,6 +73,10 @@ std::vector<std::string> Solver::describe_step() const {
   const bool loaded = std::ranges::any_of(conditions_, [](const Condition& one) {
     return fixes_pressure(one) || prescribes_flow(one);
   });
+  std::string implicit = solids(&OfBody::implicit);
+  if (modes_.implicit_convection)
+    implicit = "convection of cells that the flow crosses faster than those around them" +
+               (implicit.empty() ? "" : "; " + implicit);
   const std::array<std::pair<const char*, std::string>, 18> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},
@@ -87,7 +91,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"mix_viscosity", where(modes_.mu_varies, "mu of fluid and solids by alpha")},
       {"mix_density", where(heavy_.has_value(), "rho of fluid and solids, new pressure matrix")},
       {"add_elastic_force", solids(&OfBody::force)},
-      {"add_semi_implicit", solids(&OfBody::implicit)},
+      {"add_semi_implicit", implicit},
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
       {"balance_weight", where(heavy_.has_value(),
                                "first step: p at rest under the weight; then what is not at rest")},

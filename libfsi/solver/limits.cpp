@@ -10,11 +10,22 @@
 
 namespace fsi {
 
-Real Solver::advective_dt(Real courant) const {
+Real Solver::courant_rate_max() const {
   Real rate = 0;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
-  rate = global_max(rate);
+  if (!modes_.implicit_convection) {
+    for (Index c = 0; c < mesh_.n_owned; ++c)
+      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+    return global_max(rate);
+  }
+  // What the solids carry is explicit.
+  for (const Body& body : bodies_)
+    for (const Index c : body.band.cells())
+      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+  return std::max(global_max(rate), courant_.rate(state_.phi));
+}
+
+Real Solver::advective_dt(Real courant) const {
+  const Real rate = courant_rate_max();
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 

@@ -369,6 +369,10 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, R
   for (const Body& body : bodies_)
     if (body.two_viscosities)
       body.two_viscosities->traction.add_semi_implicit(*stiff_, body.alpha_f, body.band);
+  if (!modes_.implicit_convection) return;
+  Real rho = physics_.rho;
+  for (const Body& body : bodies_) rho = std::max(rho, body.rho);
+  courant_.add_implicit(*stiff_, state_.phi, rho, dt, weights_);
 }
 
 }  // namespace fsi

@@ -31,6 +31,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       axis_(setup.axis / norm(setup.axis)),
       driving_force_(setup.body_force),
       weights_(mesh),
+      courant_(mesh, setup.convection),
       state_(mesh),
       u_b_(mesh),
       u_b_new_(mesh),
@@ -52,12 +53,17 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
       loads_(mesh, projection_, openings_, physics.rho),
+      bulk_friction_(mesh, projection_, openings_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
+  // What keeps kinetic energy has all of convection explicit, in steps as short as that asks for.
+  if (courant_.any_simplex() && !setup.orthogonal_projection)
+    stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
+  if (leaves_ || forcing_) least_decay_ = momentum_.least_decay();
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
   cells_norm_ = std::sqrt(squares.total());
@@ -90,7 +96,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
   if (forcing_) {
-    forcing_->hold(state_.u, state_.phi, physics_.rho, 1);
+    forcing_->hold(state_.u, state_.phi, physics_.rho, 0, 1);
     forcing_->gradient = 0;
   }
   set_pressure_of_rest();
@@ -190,7 +196,8 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .stiff = modes_.stiff,
                                   .force = force_,
                                   .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
-                                  .body = driving_gradient() * axis_};
+                                  .body = driving_gradient() * axis_,
+                                  .explicit_courant = explicit_courant()};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 
@@ -224,6 +231,7 @@ void Solver::project(State& state, Real dt) {
   flow::divergence(divergence_, state.phi, mesh_);
   constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
   renew_responses();
+  bulk_friction_.begin();
   openings_.advance(q_b_, state.t + dt / 2, dt / physics_.rho);
   const SolveResult solve =
       projection_.project(state.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
@@ -232,6 +240,7 @@ void Solver::project(State& state, Real dt) {
     state.u[c] -= grad_q_[c];
     state.p[c] += physics_.rho / dt * q_[c];
   }
+  bulk_friction_.add(state.p, q_, friction(), dt / physics_.rho);
   if (!projection_.orthogonal())
     flow::add_viscous_pressure(state.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
                                mesh_);
@@ -240,9 +249,15 @@ void Solver::project(State& state, Real dt) {
   report_.pressure_residual = solve.residual;
 }
 
+Real Solver::friction() const {
+  Real mu = physics_.mu_f;
+  for (const Body& body : bodies_) mu = std::min(mu, body.mu);
+  return mu * least_decay_;
+}
+
 void Solver::hold_mean_velocity(State& state, Real dt) {
   const Profile::Call call(profile_, calls_.hold_mean_velocity);
-  if (forcing_) forcing_->hold(state.u, state.phi, physics_.rho, dt);
+  if (forcing_) forcing_->hold(state.u, state.phi, physics_.rho, friction(), dt);
 }
 
 }  // namespace fsi

@@ -13,6 +13,8 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/bulk_friction.hpp"
+#include "libfsi/flow/courant.hpp"
 #include "libfsi/flow/density.hpp"
 #include "libfsi/flow/forcing.hpp"
 #include "libfsi/flow/loads.hpp"
@@ -111,6 +113,7 @@ class Solver {
   void resume();
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
+  /// A triangle or tetrahedron away from the solids has that of its neighbourhood (flow::Courant).
   Real advective_dt(Real courant) const;
   /// How long the next step may be for what the conditions give over time, in a run to `end`
   /// (`step_of`).
@@ -246,11 +249,12 @@ class Solver {
   bool stuck(Real dt);
   /// What the bodies ask of a step, set as they are put in.
   struct Modes {
-    bool mu_varies = false;    ///< some solid's viscosity is not the fluid's
-    bool stiff = false;        ///< elasticity is partly implicit
-    bool flux_strain = false;  ///< the face flux strains some solid
-    bool one_sided = false;    ///< some solid's L is of one side of its surface
-    Real G = 0;                ///< the largest
+    bool mu_varies = false;            ///< some solid's viscosity is not the fluid's
+    bool stiff = false;                ///< elasticity or convection is partly implicit
+    bool implicit_convection = false;  ///< where cells are smaller than those around them
+    bool flux_strain = false;          ///< the face flux strains some solid
+    bool one_sided = false;            ///< some solid's L is of one side of its surface
+    Real G = 0;                        ///< the largest
     Real rho_least = std::numeric_limits<Real>::max();  ///< of fluid and solids
   };
   /// What a body just put in asks for.
@@ -261,6 +265,13 @@ class Solver {
   }
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
+  /// The Courant number per time that limits a step.
+  Real courant_rate_max() const;
+  /// k of bulk_friction.hpp, of the least viscous of fluid and solids.
+  Real friction() const;
+  Real explicit_courant() const {
+    return modes_.implicit_convection ? courant_.explicit_part() : std::numeric_limits<Real>::max();
+  }
   Real elastic_dt(const Body& body) const;
   void make_orthogonal();
   void hold_backup();
@@ -279,6 +290,7 @@ class Solver {
   Vec3 axis_;
   std::function<Vec3(const Vec3&, Real)> driving_force_;
   FaceWeights weights_;
+  flow::Courant courant_;
   State state_;
   BoundaryField<Vec3> u_b_, u_b_new_;
   BoundaryField<Real> p_b_;
@@ -294,11 +306,13 @@ class Solver {
   flow::Openings openings_;
   flow::Projection projection_;
   flow::Loads loads_;
+  flow::BulkFriction bulk_friction_;
+  Real least_decay_ = 0;  // of flow past the walls, per viscosity; 0: none is needed
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
   Modes modes_;
-  std::optional<FaceField<Real>> stiff_;     // kappa_ and what two viscosities add to it
+  std::optional<FaceField<Real>> stiff_;     // kappa_ and what two viscosities and courant_ add
   std::optional<CellField<Real>> mixed_mu_;  // of the cells, where there are several solids
   /// The density and what it needs, where some solid's is not the fluid's.
   struct Heavy {

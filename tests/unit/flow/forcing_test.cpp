@@ -18,7 +18,7 @@ TEST(Forcing, HoldsTheMean) {
   CellField<Vec3> u(mesh);
   FaceField<Real> phi(mesh);
   const Real rho = 2, dt = 0.1;
-  forcing.hold(u, phi, rho, dt);
+  forcing.hold(u, phi, rho, 0, dt);
   EXPECT_NEAR(mean_velocity(phi, {1, 0, 0}, mesh), 1.5, 1e-14);
   EXPECT_NEAR(forcing.gradient, rho * 1.5 / dt, 1e-11);  // what takes rest there in a step
   Real worst = 0;
@@ -26,8 +26,11 @@ TEST(Forcing, HoldsTheMean) {
   EXPECT_LT(global_max(worst), 1e-12);
   EXPECT_LT(divergence_max(phi, mesh), 1e-12);
   const Real before = forcing.gradient;
-  forcing.hold(u, phi, rho, dt);
+  forcing.hold(u, phi, rho, 0, dt);
   EXPECT_NEAR(forcing.gradient, before, 1e-12);
+  for (Index f = 0; f < mesh.n_internal; ++f) phi[f] *= 0.9;
+  forcing.hold(u, phi, rho, 70, dt);
+  EXPECT_NEAR(forcing.gradient, before + (rho / dt + 70) * 0.15, 1e-11);
 }
 
 TEST(Forcing, TheMeanIsThatOfTheVelocityOnAnyMesh) {
