@@ -214,10 +214,12 @@ std::string Options::text_or_file(const std::string& name, const std::string& fa
 std::string Options::choice(const std::string& name, const std::string& fallback,
                             const std::vector<std::string>& valid, const std::string& help) {
   std::string value = raw(name).value_or(fallback);
-  if (std::find(valid.begin(), valid.end(), value) == valid.end())
-    throw Error(ErrorKind::input, "option -" + name + ": \"" + value +
-                                      "\" is not valid; nearest is " + nearest(value, valid) +
-                                      "; choose from: " + joined(valid));
+  if (std::ranges::find(valid, value) == valid.end()) {
+    const std::string near = nearest(value, valid, value.size() / 2);
+    throw Error(ErrorKind::input, "option -" + name + ": \"" + value + "\" is not valid; " +
+                                      (near.empty() ? "" : "nearest is " + near + "; ") +
+                                      "choose from: " + joined(valid));
+  }
   record({name, value, fallback, help, "one of " + joined(valid)});
   return value;
 }

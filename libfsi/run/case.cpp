@@ -172,6 +172,20 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   return output;
 }
 
+/// A run that wrote more would never end: its steps stop at every file.
+void check_intervals(const OutputSetup& output, Real end) {
+  constexpr Real files = 1e5, rows = 1e8;
+  const auto check = [&](const char* name, Real interval, Real most, const char* things) {
+    require(interval == 0 || end / interval <= most,
+            std::string("option -") + name +
+                print(": %g asks for %.2g %s in a run to t = %g; at most %g: give %.2g or more",
+                      interval, end / interval, things, end, most, end / most));
+  };
+  check("output_interval", output.field_interval, files, "files");
+  check("checkpoint_interval", output.checkpoint_interval, files, "files");
+  check("sample_interval", output.sample_interval, rows, "rows");
+}
+
 /// The patches that are walls.
 std::vector<std::string> walls_of(const Conditions& conditions, const Mesh& mesh) {
   std::vector<std::string> walls;
@@ -237,6 +251,7 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
     };
   result.time = read_time(options);
   result.output = read_output(options, driver);
+  check_intervals(result.output, result.time.end);
   require(options.help() || !result.mesh.file.empty(),
           "option -mesh is missing: the gmsh file of the geometry");
   return result;

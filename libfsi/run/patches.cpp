@@ -61,7 +61,11 @@ class PatchOptions {
         real("period", 0, "time after which the values of a csv file come again; 0: never", "time");
     char* end = nullptr;
     const Real value = std::strtod(text.c_str(), &end);
-    if (end != text.c_str() && *end == '\0' && std::isfinite(value)) return value;
+    if (end != text.c_str() && *end == '\0' && std::isfinite(value)) {
+      require(period == 0, "option -" + of("period") + ": -" + of(key) + " is a number, " + text +
+                               "; a period is that of the values of a csv file");
+      return value;
+    }
     if (options_.help()) return 0;
     require(!text.empty(), "option -" + of(key) + " is missing: " + help);
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +

@@ -16,6 +16,12 @@ void say(const char* kind, const std::string& text) {
   if (rank() == 0) std::fprintf(stderr, "fsi: %s: %s\n", kind, text.c_str());
 }
 
+/// More of the solid than specks that may run ahead of it is out of the mesh.
+bool leaves(const Body& body) {
+  constexpr Real specks = 1e-4;
+  return body.volume_out > specks * body.filled.volume;
+}
+
 std::string name_of(const Body& body) { return body.name.empty() ? "solid" : "solid " + body.name; }
 
 std::string table_of(const Body& body) {
@@ -72,8 +78,7 @@ void Watch::leaving(const Solver& solver) {
   const Real t = solver.state().t;
   for (std::size_t i = 0; i < said_.size(); ++i) {
     const Body& body = solver.bodies()[i];
-    constexpr Real specks = 1e-4;  // of the solid, may run ahead of it
-    if (body.volume_out <= specks * body.filled.volume) continue;
+    if (!leaves(body)) continue;
     const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
     said_[i].leaving = true, said_[i].left = body.gone != 0;
     if (begins)
@@ -107,7 +112,9 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
   // Of G times the volume. The map of triangles and tetrahedra tells strains to some per cent.
   const Real matters = body.zone.all() ? 5e-3 : 1e-3;
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
-  if (body.map() != nullptr && !said.forgetful && larger > matters * body.G * body.filled.volume &&
+  // What has left tells no shape.
+  if (body.map() != nullptr && !leaves(body) && !said.forgetful &&
+      larger > matters * body.G * body.filled.volume &&
       std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {
     said.forgetful = true;
     say("warning", at + "the stress of the " + name_of(body) +

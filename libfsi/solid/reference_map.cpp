@@ -173,7 +173,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
 Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
   // Triangles and tetrahedra know grad xi by a regression, which loses more of the volume. A map
   // that alone tells B is rather left to it: moved by more, a coarse solid is drawn to a lid.
-  const Real part = beside_psi_ && mesh_.simplex(c) ? 0.25 : 0.06;
+  const Real part = beside_psi_ && mesh_.simplex(c) ? 0.12 : 0.06;
   const Real J = volume_ratio(c), h = cell_size(mesh_, c);
   Vec3 grad_J;
   for (const Index f : mesh_.cell_faces[c]) {

@@ -73,6 +73,8 @@ OPTIONS = [
     option("Courant number too large", "-time_courant 7", "-time_courant", "<= 1"),
     option("time step negative", "-time_step -0.1", "-time_step", ">= 0"),
     option("interval negative", "-sample_interval -1", "-sample_interval", ">= 0"),
+    option("more files than anybody reads", "-output_interval 1e-9", "-output_interval", "files", "or more"),
+    option("more rows than anybody reads", "-sample_interval 1e-12", "-sample_interval", "rows"),
     option("partitioner unknown", "-petscpartitioner_type scotsch", "-petscpartitioner_type",
            "scotsch", "metis, ptscotch, simple"),
     option("way of division without its partitioner",

@@ -54,6 +54,8 @@ def cases(Case):
              "missing"),
         case("velocity without its own", yaml(left="{type: velocity}"), "-patches_left_velocity",
              "-patches_left_velocity_file", "missing"),
+        case("period of a number", yaml(left="{type: flow_rate, flow_rate: 0.5, period: 1}"),
+             "-patches_left_period", "is a number", "csv"),
         case("table not there", yaml(left="{type: flow_rate, flow_rate: none.csv}"), "none.csv"),
         table("columns of a table swapped", "flow_rate,time\n1,0\n2,1\n", "column 1", "\"flow_rate\"",
               "t or time"),

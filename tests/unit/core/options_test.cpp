@@ -120,6 +120,8 @@ TEST(Options, AWrongListLengthIsCounted) {
 TEST(Options, AChoiceListsTheValidOnes) {
   const auto read = [](Options& o) { o.choice("solid_shape", "none", {"none", "torus"}, ""); };
   EXPECT_NE(sentence("-solid_shape tours", read).find("none, torus"), std::string::npos);
+  EXPECT_NE(sentence("-solid_shape tours", read).find("nearest is torus"), std::string::npos);
+  EXPECT_EQ(sentence("-solid_shape cube", read).find("nearest"), std::string::npos);
 }
 
 TEST(Options, AnUnknownNameIsAnErrorWithTheNearestOne) {

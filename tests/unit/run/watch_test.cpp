@@ -78,5 +78,17 @@ TEST(Watch, SpecksAreNoSolidThatLeaves) {
   EXPECT_EQ(said(1e-4).empty(), rank() != 0);
 }
 
+TEST(Watch, StrainAndShapeAreToldApartOfASolidThatIsWhole) {
+  for (const Real out : {0.0, 1e-3}) {
+    Disc disc;
+    disc.solver.bodies().front().volume_out = out;
+    Watch watch(1);
+    testing::internal::CaptureStderr();
+    watch.strain(0, disc.solver, {.elastic_energy = 0.03, .shape_energy = 0.01});
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(text.find("no longer belong") != std::string::npos, rank() == 0 && out == 0) << text;
+  }
+}
+
 }  // namespace
 }  // namespace fsi
