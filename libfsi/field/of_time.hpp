@@ -17,11 +17,9 @@ class OfTime {
   using Range = std::array<Real, 2>;
   /// A constant.
   OfTime(Real constant = 0)
-      : at_([constant](Real) { return constant; }),
-        range_([constant](Real, Real) {
+      : at_([constant](Real) { return constant; }), range_([constant](Real, Real) {
           return Range{constant, constant};
-        }),
-        constant_(true) {}
+        }) {}
   template <class Function>
   /// Any function of time. Its range is that of samples.
   requires std::is_invocable_r_v<Real, Function, Real> OfTime(Function function)
@@ -31,15 +29,12 @@ class OfTime {
       : at_(std::move(function)), range_(std::move(range)) {}
   /// Its value at time t.
   Real operator()(Real t) const { return at_(t); }
-  /// Whether it was made of a number.
-  bool constant() const { return constant_; }
   /// Its range from time a to time b.
   Range range(Real a, Real b) const;
 
  private:
   std::function<Real(Real)> at_;
   std::function<Range(Real, Real)> range_;
-  bool constant_ = false;
 };
 
 /// How long a step from t may be in which `given` changes by no more than a tenth of its range in

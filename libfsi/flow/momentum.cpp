@@ -126,24 +126,6 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
   system_.renewed();
 }
 
-Real Momentum::least_decay() {
-  const bool held = std::ranges::any_of(implicit_, [](const Vec3& a) {
-    return a == Vec3{1, 1, 1};
-  });
-  if (all_of_ranks(!held)) return 0;
-  const Index dim = mesh_.dim;
-  std::ranges::fill(system_.matrix().diagonal, 0.0);
-  add_diffusion([](Index) { return 1; });
-  system_.renewed();
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    for (Index i = 0; i < dim; ++i) b_[c * dim + i] = mesh_.V[c];
-  std::ranges::fill(w_, 0.0);
-  system_.solve(w_, b_);
-  Real most = 0;
-  for (Index i = 0; i < mesh_.n_owned * dim; ++i) most = std::max(most, w_[i]);
-  return 1 / global_max(most);
-}
-
 void Momentum::hold_old() {
   whole_past_ = true;
   if (!old_) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};

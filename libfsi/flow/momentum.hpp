@@ -95,9 +95,6 @@ class Momentum {
     CellField<Vec3> u;        ///< in the cells
     BoundaryField<Vec3> u_b;  ///< at the boundary
   };
-  /// Collective, before the first step. 1 / max w, -Lap w = 1 and w = 0 where the velocity is
-  /// given: all flow past those patches decays by at least nu times that. 0 without such a patch.
-  Real least_decay();
   /// Second order in time from now on where theta = 1 at all faces; before the first step.
   void hold_old();
   /// Empty on regular meshes without hold_old.

@@ -179,7 +179,7 @@ void check_intervals(const OutputSetup& output, Real end) {
     require(interval == 0 || end / interval <= most,
             std::string("option -") + name +
                 print(": %g asks for %.2g %s in a run to t = %g; at most %g: give %.2g or more",
-                      interval, end / interval, things, end, most, end / most));
+                      interval, end / interval, things, end, most, 1.06 * end / most));
   };
   check("output_interval", output.field_interval, files, "files");
   check("checkpoint_interval", output.checkpoint_interval, files, "files");

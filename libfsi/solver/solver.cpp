@@ -63,7 +63,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
-  if (leaves_ || forcing_) least_decay_ = momentum_.least_decay();
+  if (leaves_ || forcing_)
+    friction_ = flow::bulk_friction(mesh, weights_, conditions_, pressure_method(mesh));
   Sum squares;
   for (Index c = 0; c < mesh.n_owned; ++c) squares.add(mesh.V[c] * mesh.V[c]);
   cells_norm_ = std::sqrt(squares.total());
@@ -250,9 +251,11 @@ void Solver::project(State& state, Real dt) {
 }
 
 Real Solver::friction() const {
-  Real mu = physics_.mu_f;
-  for (const Body& body : bodies_) mu = std::min(mu, body.mu);
-  return mu * least_decay_;
+  // With a density of its own the openings' shares would be those of each step.
+  if (heavy_ && openings_.all().size() > 1) return 0;
+  Real mu = physics_.mu_f, rho = physics_.rho;
+  for (const Body& body : bodies_) mu = std::min(mu, body.mu), rho = std::max(rho, body.rho);
+  return physics_.rho / rho * mu * friction_;
 }
 
 void Solver::hold_mean_velocity(State& state, Real dt) {

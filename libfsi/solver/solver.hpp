@@ -267,7 +267,7 @@ class Solver {
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
   /// The Courant number per time that limits a step.
   Real courant_rate_max() const;
-  /// k of bulk_friction.hpp, of the least viscous of fluid and solids.
+  /// k of bulk_friction.hpp, of the least viscous and the heaviest of fluid and solids.
   Real friction() const;
   Real explicit_courant() const {
     return modes_.implicit_convection ? courant_.explicit_part() : std::numeric_limits<Real>::max();
@@ -307,7 +307,7 @@ class Solver {
   flow::Projection projection_;
   flow::Loads loads_;
   flow::BulkFriction bulk_friction_;
-  Real least_decay_ = 0;  // of flow past the walls, per viscosity; 0: none is needed
+  Real friction_ = 0;  // of flow along the walls, per viscosity; 0: none is needed
   flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
