@@ -33,6 +33,7 @@ void BulkFriction::add(CellField<Real>& p, const CellField<Real>& q, Real k, Rea
   for (Index c = 0; c < p.size(); ++c) p[c] += k * q[c];
   for (const Changing& one : changing_) {
     const Real rise = k * dt_rho * (one.opening->pressure - one.before);
+    if (rise == 0) continue;
     for (Index c = 0; c < p.size(); ++c) p[c] -= rise * one.share[c];
   }
 }
