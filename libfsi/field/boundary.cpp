@@ -131,7 +131,9 @@ Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end) {
   const auto follow = [&](const OfTime& given) { least = std::min(least, step_of(given, t, end)); };
   for (const Condition& condition : conditions)
     std::visit(
-        Overloaded{[&](const FixedVelocity& inflow) { follow(inflow.pace); },
+        Overloaded{[&](const FixedVelocity& inflow) {
+                     if (inflow.pace.any()) follow(inflow.pace);
+                   },
                    [&](const FlowRate& inflow) { follow(inflow.rate); },
                    [&](const Opening& opening) { follow(opening.pressure); }, [](const auto&) {}},
         condition);

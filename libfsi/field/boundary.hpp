@@ -23,7 +23,8 @@ struct Slip {};
 /// Prescribed velocity u(x, t).
 struct FixedVelocity {
   std::function<Vec3(const Vec3& x, Real t)> u;  ///< velocity at x and t
-  OfTime pace{};  ///< its factor that depends on time alone: steps follow what it does
+  /// What u does over time, where that is known better than by samples of u: steps follow it.
+  OfTime pace = OfTime::nothing();
 };
 /// A flow rate into the domain (negative: out of it), spread over the patch.
 struct FlowRate {
@@ -64,7 +65,8 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                            const std::vector<Condition>& conditions, Real t, const Mesh& mesh);
 
-/// How long a step from t may be for all that the conditions give over time (`step_of`).
+/// How long a step from t may be for what the conditions give over time (`step_of`), but for
+/// velocities without a pace (OfPlaceAndTime).
 Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end);
 
 /// Whether the condition gives the velocity (for its gradient and the implicit viscous term).

@@ -11,27 +11,42 @@ Real width(const OfTime::Range& range) { return range[1] - range[0]; }
 
 }  // namespace
 
-// Samples at multiples of the golden ratio, whose distances are those of no period.
+Real golden(int k) {
+  constexpr Real ratio = 0.6180339887498949;
+  return k * ratio - std::floor(k * ratio);
+}
+
 OfTime::Range OfTime::range(Real a, Real b) const {
   if (range_) return range_(a, b);
   constexpr int samples = 64;
-  constexpr Real golden = 0.6180339887498949;
   Range range{std::min(at_(a), at_(b)), std::max(at_(a), at_(b))};
   for (int i = 1; i <= samples; ++i) {
-    const Real value = at_(a + (i * golden - std::floor(i * golden)) * (b - a));
+    const Real value = at_(a + golden(i) * (b - a));
     range = {std::min(range[0], value), std::max(range[1], value)};
   }
   return range;
 }
 
 Real step_of(const OfTime& given, Real t, Real end) {
-  constexpr Real change = 0.1, least = 1e-5, rounding = 1e-12;
+  constexpr Real rounding = 1e-12;
   const OfTime::Range whole = given.range(0, std::max(end, t));
   const Real most = width(whole);
   if (!(most > rounding * std::max(std::abs(whole[0]), std::abs(whole[1])))) return end;
-  Real dt = end;
-  while (dt > least * end && width(given.range(t, t + dt)) > change * most) dt *= 0.75;
-  return std::max(dt, least * end);
+  return step_of(given, most, t, end);
+}
+
+// The longest of end, 0.75 end, 0.75^2 end, ... that will do, by bisection.
+Real step_of(const OfTime& given, Real most, Real t, Real end) {
+  constexpr Real change = 0.1, least = 1e-5, shorter = 0.75;
+  const auto length = [&](int k) { return std::max(std::pow(shorter, k), least) * end; };
+  int does = 0, not_yet = -1;
+  while (length(does) > least * end) ++does;
+  while (does - not_yet > 1) {
+    const int middle = (does + not_yet) / 2;
+    const bool well = width(given.range(t, t + length(middle))) <= change * most;
+    (well ? does : not_yet) = middle;
+  }
+  return length(does);
 }
 
 }  // namespace fsi

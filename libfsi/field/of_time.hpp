@@ -27,6 +27,14 @@ class OfTime {
   /// A function of time and its range between two times.
   OfTime(std::function<Real(Real)> function, std::function<Range(Real, Real)> range)
       : at_(std::move(function)), range_(std::move(range)) {}
+  /// Where nothing is given.
+  static OfTime nothing() {
+    OfTime none;
+    none.at_ = nullptr;
+    return none;
+  }
+  /// Whether anything is given.
+  bool any() const { return static_cast<bool>(at_); }
   /// Its value at time t.
   Real operator()(Real t) const { return at_(t); }
   /// Its range from time a to time b.
@@ -40,5 +48,11 @@ class OfTime {
 /// How long a step from t may be in which `given` changes by no more than a tenth of its range in
 /// [0, end]. Never less than a part in 1e5 of end, in which it may jump; end where it is constant.
 Real step_of(const OfTime& given, Real t, Real end);
+/// The same for a tenth of `most`, 0 or more, in place of that of its own range.
+Real step_of(const OfTime& given, Real most, Real t, Real end);
+
+/// The k-th of numbers in [0, 1) that fill it evenly and whose distances are those of no period:
+/// the fractions of multiples of the golden ratio.
+Real golden(int k);
 
 }  // namespace fsi

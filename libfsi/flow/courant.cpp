@@ -11,6 +11,7 @@ namespace {
 
 constexpr Real central = 0.6;  // Adams-Bashforth of third order bears 0.72
 constexpr Real upwind = 0.3;   // of second order
+constexpr Real tiny = 1e-30;   // a Courant number that is none
 
 }  // namespace
 
@@ -18,7 +19,8 @@ Courant::Courant(const Mesh& mesh, Convection scheme)
     : mesh_(mesh),
       bound_(scheme == Convection::linear || scheme == Convection::symmetric ? central : upwind),
       volume_(mesh.points.size(), 0),
-      courant_(mesh),
+      over_(mesh),
+      implicit_(mesh),
       swept_(mesh),
       at_vertex_(mesh.points.size(), 0) {
   bool none = true;
@@ -63,21 +65,54 @@ std::vector<Real> Courant::of_neighbourhood(const std::vector<Real>& swept) cons
   return rate;
 }
 
-// Why the larger of two cells counts for what cells alike need: A is the skew convection of a step,
-// v*Av = i sum_f phi_f dt Im(v_P* v_N). That is at most sum_f |phi_f| dt |v_P| |v_N - v_P|, where P
-// may be the larger one.
+// With A the skew convection of a step and k_f = a_f |phi_f| dt / 2, v*Av = i sum_f phi_f dt
+// Im(v_P* v_N). A part s of it is at most s |phi_f| dt |v_P| |v_N - v_P| <= C k_f |v_N - v_P|^2 +
+// s^2 |phi_f| dt / (2 C a_f) |v_P|^2, the rest (1 - s) |phi_f| dt / 2 (|v_P|^2 + |v_N|^2). So the
+// faster cell N asks for 1 - s <= C / Co_N and the slower P for 1 - s + s^2 / (C a_f) <= C / Co_P,
+// for all of v*Av to stay below C v*(V + K)v.
 void Courant::add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, Real rho, Real dt,
                            const FaceWeights& weights) {
-  const Real C = bound_;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    courant_[c] = mesh_.simplex(c) ? dt * courant_rate(phi, mesh_, c) / C : 0;
-  mesh_.halo.update(courant_);
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    Real all = 0, inner = 0;
+    for (const Index f : mesh_.cell_faces[c]) {
+      all += std::abs(phi[f]);
+      if (f < mesh_.n_internal) inner += std::abs(phi[f]);
+    }
+    over_[c] = 1 - bound_ * mesh_.V[c] / std::max(dt * all / 2, tiny * mesh_.V[c]);
+    implicit_[c] = mesh_.simplex(c) && inner > 0 ? std::clamp(all / inner * over_[c], 0., 1.) : 0;
+  }
+  mesh_.halo.update(over_), mesh_.halo.update(implicit_);
   for (Index f = 0; f < mesh_.n_internal; ++f) {
-    const auto [less, most] = std::minmax(courant_[mesh_.owner[f]], courant_[mesh_.neighbour[f]]);
-    if (most <= 1) continue;
-    const Real alone = (1 - 1 / most) / C;
-    const Real among_such = less > 1 ? (less - 1 / less) / (2 * C) : 0;
-    kappa[f] += std::max(alone, among_such) * rho * std::abs(phi[f]) / (2 * weights.g[f]);
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Real asked = std::max(implicit_[P], implicit_[N]), q = std::min(over_[P], over_[N]);
+    if (asked == 0) continue;
+    const Real s = std::clamp(2 * q, asked, Real{1}), a = s * s / (bound_ * (s - q));
+    kappa[f] += a * rho * std::abs(phi[f]) / (2 * weights.g[f]);
+  }
+}
+
+void Courant::share(CellField<Vec3>& change, const FaceField<Real>& kappa, Real dt_rho,
+                    const FaceWeights& weights) {
+  if (!any_simplex_) return;
+  fast_.clear();
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    if (implicit_[c] > 0) fast_.emplace_back(c, mesh_.V[c] * change[c]);
+  const auto renew = [&](const std::pair<Index, Vec3>& fast) {
+    const Index c = fast.first;
+    Vec3 sum = fast.second;
+    Real all = mesh_.V[c];
+    for (const Index f : mesh_.cell_faces[c]) {
+      if (f >= mesh_.n_internal) continue;
+      const Real k = kappa[f] * weights.g[f] * dt_rho;
+      sum += k * change[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]], all += k;
+    }
+    change[c] = sum / all;
+  };
+  constexpr int sweeps = 4;
+  for (int k = 0; k < sweeps; ++k) {
+    std::for_each(fast_.begin(), fast_.end(), renew);
+    std::for_each(fast_.rbegin(), fast_.rend(), renew);
+    mesh_.halo.update(change);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Courant numbers: what limits a step, and what of convection is explicit in it.
 
+#include <utility>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
@@ -14,17 +15,16 @@ namespace fsi::flow {
 /// step as short as the flattest asks for is a tenth or less of what hexahedra of the same count
 /// take. So a triangle or tetrahedron has the rate of its neighbourhood,
 ///   r_c = sum_{v of c} R_v / sum_{v of c} V_v,   R_v = sum_{c' at v} 1/2 sum_f |phi_f|,
-/// V_v the volume of the cells c' at vertex v. What of its own Courant number Co is beyond C
-/// is taken by an implicit term in increments (Momentum). C is 0.6 for central and 0.3 for upwind
-/// convection.
-///   kappa_f g_f = a_f rho |phi_f| / 2,
-///   a_f = max(1 / C - 1 / M, (m / C^2 - 1 / m) / 2, 0).
-/// M and m are the larger and the smaller Co of the two cells. By the first the diagonal of the
-/// momentum matrix grows by Co / C in a cell among larger ones, so that C of it is explicit. The
-/// second keeps Co sin(th) / (1 + a Co (1 - cos th)) below C for all waves where all cells are
-/// alike. The term is div(kappa grad(u^(n+1) - u^n)). It is an error of the size of |d| dt |u| grad
-/// grad du/dt, so of second order where mesh and step are refined together, and 0 in a steady flow.
-/// All other cells have their own rate and no such term.
+/// V_v the volume of the cells c' at vertex v. What of its own Courant number Co is beyond C is
+/// taken by an implicit term in increments (Momentum), div(kappa grad(u^(n+1) - u^n)). C is 0.6 for
+/// central and 0.3 for upwind convection.
+///   kappa_f g_f = a_f rho |phi_f| / 2,   a_f = s^2 / (C (s - q)),   s = max(s_P, s_N, min(1, 2
+///   q)), q = min(1 - C / Co_P, 1 - C / Co_N),
+/// where s_P or s_N is above 0: s_c = (1 - C / Co_c) sum_f |phi_f| / sum_inner |phi_f|, from 0 to
+/// 1, in triangles and tetrahedra. So the convection of a step, divided by V + K with K of kappa,
+/// stays within C for all waves, whatever the cells' sizes. The term is an error of the size of |d|
+/// dt |u| grad grad du/dt, so of second order where mesh and step are refined together, and 0 in a
+/// steady flow. All other cells have their own rate, and a term only beside such a cell.
 class Courant {
  public:
   /// Collective. The mesh must outlive it.
@@ -41,6 +41,14 @@ class Courant {
   /// Collective. kappa_f += the term above at inner faces. rho: the largest density.
   void add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, Real rho, Real dt,
                     const FaceWeights& weights);
+  /// Collective, after `add_implicit`. What is taken off the velocity after the momentum equation
+  /// is shared as its matrix would do it, (V + K) new = V change, in the cells with s_c > 0:
+  ///   (V_c + sum_f k_f) new_c - sum_f k_f new_N = V_c change_c,   k_f = kappa_f g_f dt / rho,
+  /// by four symmetric sweeps of Gauss and Seidel, the other cells as they are. Without it a
+  /// gradient of the pressure moves a flat cell by the whole of it in each step, while the momentum
+  /// equation moves it by V / (V + K) of what drives it back: flat cells grow. dt_rho: dt / rho.
+  void share(CellField<Vec3>& change, const FaceField<Real>& kappa, Real dt_rho,
+             const FaceWeights& weights);
 
  private:
   /// R_v of swept_.
@@ -51,10 +59,11 @@ class Courant {
   const Mesh& mesh_;
   Real bound_;
   bool any_simplex_ = false;
-  std::vector<Real> volume_;             // [points] V_v; 0 where there is no simplex at all
-  CellField<Real> courant_;              // scratch: Co / C
-  mutable CellField<Real> swept_;        // scratch: 1/2 sum_f |phi_f|
-  mutable std::vector<Real> at_vertex_;  // scratch: R_v
+  std::vector<Real> volume_;                  // [points] V_v; 0 where there is no simplex at all
+  CellField<Real> over_, implicit_;           // 1 - C / Co; s_c
+  std::vector<std::pair<Index, Vec3>> fast_;  // scratch: cells with s_c > 0, V change
+  mutable CellField<Real> swept_;             // scratch: 1/2 sum_f |phi_f|
+  mutable std::vector<Real> at_vertex_;       // scratch: R_v
 };
 
 }  // namespace fsi::flow

@@ -57,12 +57,6 @@ Real mean_pressure(const Solver& solver, const Patch& patch) {
   return p.total() / area.total();
 }
 
-Real pressure_drop(const Solver& solver) {
-  const Patch *inlet = find(solver.mesh(), "inlet"), *outlet = find(solver.mesh(), "outlet");
-  if (inlet == nullptr || outlet == nullptr) return solver.driving_gradient() * period(solver);
-  return mean_pressure(solver, *inlet) - mean_pressure(solver, *outlet);
-}
-
 Real area(const Patch& patch, const Mesh& mesh) {
   Sum sum;
   for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
@@ -75,6 +69,17 @@ Real mean_pressure_beside(const Solver& solver, const Patch& patch) {
   for (Index f = patch.begin; f < patch.end; ++f)
     p.add(norm(mesh.Sf[f]) * solver.state().p[mesh.owner[f]]);
   return p.total() / area(patch, mesh);
+}
+
+Real pressure_drop(const Solver& solver) {
+  const Patch *inlet = find(solver.mesh(), "inlet"), *outlet = find(solver.mesh(), "outlet");
+  if (inlet == nullptr || outlet == nullptr) return solver.driving_gradient() * period(solver);
+  const auto pressure = [&](const Patch& patch) {
+    const Condition& condition = solver.conditions()[&patch - solver.mesh().patches.data()];
+    return fixes_pressure(condition) ? mean_pressure(solver, patch)
+                                     : mean_pressure_beside(solver, patch);
+  };
+  return pressure(*inlet) - pressure(*outlet);
 }
 
 /// Columns of each patch that fluid goes through, and the largest Reynolds number there.

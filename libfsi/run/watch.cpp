@@ -74,6 +74,16 @@ std::string Watch::energy(Real made, const Solver& solver) {
   return made > wrong ? text : "";
 }
 
+void Watch::reynolds(Real number) {
+  constexpr Real turbulent = 4000;  // a straight pipe, at the latest
+  if (told_of_turbulence_ || !(number > turbulent)) return;
+  told_of_turbulence_ = true;
+  say("warning", print("the Reynolds number of the openings is %.3g (column reynolds of flow.csv): "
+                       "beyond %.0f a vessel's flow is turbulent, and nothing here models that; if "
+                       "it ought to be less, look at the units of density, viscosity and pressure",
+                       number, turbulent));
+}
+
 void Watch::leaving(const Solver& solver) {
   const Real t = solver.state().t;
   for (std::size_t i = 0; i < said_.size(); ++i) {

@@ -22,6 +22,8 @@ class Watch {
   /// where it is most of it, why the run must end: such a run is wrong, whatever else it tells.
   /// Both name the place where the solid is strained most. Else "".
   std::string energy(Real made, const Solver& solver);
+  /// A warning where the flow through the openings is past what stays laminar in a vessel.
+  void reynolds(Real number);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
   /// A warning when a solid is strained past what the mesh resolves, and when the energy of its
@@ -35,7 +37,7 @@ class Watch {
     int pieces = -1;  // at first
   };
   std::vector<Said> said_;  // of the bodies
-  bool told_of_energy_ = false;
+  bool told_of_energy_ = false, told_of_turbulence_ = false;
 };
 
 }  // namespace fsi

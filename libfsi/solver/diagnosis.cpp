@@ -93,9 +93,8 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
       return at_worst(
           [&](Index c) { return body.alpha[c] >= solid::alpha_known ? trace(body.B[c]) - 3 : 0; },
           "the largest tr B - 3", "the law of the solid ends there");
-  const auto courant = [&](Index c) { return dt * courant_rate(state_.phi, mesh_, c); };
   const auto lost = [&](Index c) {
-    Real sum = norm2(state_.u[c]) + state_.p[c] + courant(c);
+    Real sum = norm2(state_.u[c]) + state_.p[c] + courant_rate(state_.phi, mesh_, c);
     for (const Index f : mesh_.cell_faces[c])
       if (f >= mesh_.n_internal) sum += norm2(u_b_new_[f - mesh_.n_internal]);
     return std::isfinite(sum) ? 0.0 : 1.0;
@@ -104,7 +103,8 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
     return "the first value that is not finite is " + place(w, mesh_);
   const Worst speed =
       worst(figures(mesh_, [&](Index c) { return norm(state_.u[c]); }), mesh_, 1).front();
-  return at_worst(courant, "the largest Courant number",
+  const std::vector<Real> rates = courant_rates();
+  return at_worst([&](Index c) { return dt * rates[c]; }, "the largest Courant number",
                   term == Term::solve ? "" : "convection limits") +
          print("; the largest speed is %.3g at (%.5g, %.5g, %.5g)", speed.value, speed.x.x,
                speed.x.y, speed.x.z);

@@ -24,6 +24,19 @@ Real Solver::courant_rate_max() const {
   return std::max(global_max(rate), courant_.rate(state_.phi));
 }
 
+std::vector<Real> Solver::courant_rates() const {
+  std::vector<Real> own(static_cast<std::size_t>(mesh_.n_owned));
+  for (Index c = 0; c < mesh_.n_owned; ++c) own[c] = courant_rate(state_.phi, mesh_, c);
+  if (!modes_.implicit_convection) return own;
+  std::vector<Real> swept = own;
+  for (Index c = 0; c < mesh_.n_owned; ++c) swept[c] *= mesh_.V[c];
+  std::vector<Real> rates = courant_.of_neighbourhood(swept);
+  for (const Body& body : bodies_)
+    for (const Index c : body.band.cells())
+      if (c < mesh_.n_owned) rates[c] = own[c];
+  return rates;
+}
+
 Real Solver::advective_dt(Real courant) const {
   const Real rate = courant_rate_max();
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
@@ -40,6 +53,12 @@ Real Solver::carried_dt() const {
     if (rate > 0) least = std::min(least, (1 / rate - (state_.t - body.t)) / body.time_offset());
   }
   return least;
+}
+
+Real Solver::conditions_dt(Real end) const {
+  Real dt = fsi::conditions_dt(conditions_, state_.t, end);
+  for (const OfPlaceAndTime& given : over_time_) dt = std::min(dt, given.step_of(state_.t, end));
+  return dt;
 }
 
 Real Solver::boundary_dt(Real courant) const {

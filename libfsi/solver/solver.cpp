@@ -22,6 +22,21 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
   return given;
 }
 
+/// Velocities of the boundary without a pace of their own, and the force.
+std::vector<OfPlaceAndTime> over_time(const std::vector<Condition>& conditions,
+                                      const OfPlaceAndTime::Function& force, const Mesh& mesh) {
+  std::vector<OfPlaceAndTime> given;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const auto* fixed = std::get_if<FixedVelocity>(&conditions[i]);
+    const Patch& patch = mesh.patches[i];
+    if (fixed != nullptr && !fixed->pace.any())
+      given.emplace_back(fixed->u,
+                         std::span(mesh.Cf).subspan(patch.begin, patch.end - patch.begin));
+  }
+  if (force) given.emplace_back(force, std::span(mesh.C).first(mesh.n_owned));
+  return given;
+}
+
 }  // namespace
 
 Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
@@ -30,6 +45,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       conditions_(resolve(setup.conditions, mesh)),
       axis_(setup.axis / norm(setup.axis)),
       driving_force_(setup.body_force),
+      over_time_(over_time(conditions_, driving_force_, mesh)),
       weights_(mesh),
       courant_(mesh, setup.convection),
       state_(mesh),
@@ -237,6 +253,7 @@ void Solver::project(State& state, Real dt) {
   const SolveResult solve =
       projection_.project(state.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
   loads_.answer(state.phi, q_, grad_q_, state.t + dt / 2, dt);
+  if (modes_.implicit_convection) courant_.share(grad_q_, *stiff_, dt / physics_.rho, weights_);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state.u[c] -= grad_q_[c];
     state.p[c] += physics_.rho / dt * q_[c];

@@ -13,6 +13,7 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
+#include "libfsi/field/of_place_and_time.hpp"
 #include "libfsi/flow/bulk_friction.hpp"
 #include "libfsi/flow/courant.hpp"
 #include "libfsi/flow/density.hpp"
@@ -115,9 +116,9 @@ class Solver {
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   /// A triangle or tetrahedron away from the solids has that of its neighbourhood (flow::Courant).
   Real advective_dt(Real courant) const;
-  /// How long the next step may be for what the conditions give over time, in a run to `end`
-  /// (`step_of`).
-  Real conditions_dt(Real end) const { return fsi::conditions_dt(conditions_, state_.t, end); }
+  /// Collective. How long the next step may be for what the conditions and the body force give over
+  /// time, in a run to `end` (`step_of`, OfPlaceAndTime).
+  Real conditions_dt(Real end) const;
   /// Collective. Largest dt that moves the solid by a Courant number of one at most: it stands
   /// between two steps and goes on by half of this and half of the last one.
   Real carried_dt() const;
@@ -267,6 +268,8 @@ class Solver {
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
   /// The Courant number per time that limits a step.
   Real courant_rate_max() const;
+  /// Collective. That of every owned cell.
+  std::vector<Real> courant_rates() const;
   /// k of bulk_friction.hpp, of the least viscous and the heaviest of fluid and solids.
   Real friction() const;
   Real explicit_courant() const {
@@ -289,6 +292,7 @@ class Solver {
   std::vector<Condition> conditions_;
   Vec3 axis_;
   std::function<Vec3(const Vec3&, Real)> driving_force_;
+  std::vector<OfPlaceAndTime> over_time_;  // velocities at the boundary, force
   FaceWeights weights_;
   flow::Courant courant_;
   State state_;

@@ -75,7 +75,7 @@ struct TetrahedronRule {
 /// A simplex with the distance at its corners and, where the surface may cut it, at its edge
 /// middles.
 template <class Rule>
-struct Piece {
+struct Sampled {
   std::array<Vec3, Rule::corners> x{};
   std::array<Real, Rule::corners> corner{};
   std::array<Real, Rule::middles> middle{};
@@ -89,9 +89,9 @@ struct Piece {
 /// by at most the mean of |x - x_i|, which is convex in x and so largest in a corner. Where the
 /// mean of f_i is larger than that, the piece is whole or empty.
 template <class Rule>
-Piece<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners>& x,
-                  const std::array<Real, Rule::corners>& corner) {
-  Piece<Rule> p{x, corner};
+Sampled<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners>& x,
+                    const std::array<Real, Rule::corners>& corner) {
+  Sampled<Rule> p{x, corner};
   Real longest = 0, sum = 0;
   std::array<Real, Rule::corners> reach{};  // sums of the edges from each corner
   for (const auto& [i, j] : Rule::edges) {
@@ -120,14 +120,14 @@ Piece<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners>&
 
 /// What the last division changed: of smooth parts with its sign, as it scatters about zero; of
 /// bent ones its size, as it does not.
-struct Change {
+struct DivisionError {
   Real smooth = 0, bent = 0;
 };
 
 /// The piece divided at the middles of its edges.
 template <class Rule>
-std::array<Piece<Rule>, Rule::children> children(const Images& distance,
-                                                 const Piece<Rule>& parent) {
+std::array<Sampled<Rule>, Rule::children> children(const Images& distance,
+                                                   const Sampled<Rule>& parent) {
   std::array<Vec3, Rule::corners + Rule::middles> x;
   std::array<Real, Rule::corners + Rule::middles> value;
   std::ranges::copy(parent.x, x.begin());
@@ -136,7 +136,7 @@ std::array<Piece<Rule>, Rule::children> children(const Images& distance,
   for (std::size_t e = 0; e < Rule::middles; ++e) {
     x[Rule::corners + e] = (parent.x[Rule::edges[e][0]] + parent.x[Rule::edges[e][1]]) / 2;
   }
-  std::array<Piece<Rule>, Rule::children> child;
+  std::array<Sampled<Rule>, Rule::children> child;
   for (std::size_t k = 0; k < Rule::children; ++k) {
     std::array<Vec3, Rule::corners> corners;
     std::array<Real, Rule::corners> values;
@@ -151,12 +151,12 @@ std::array<Piece<Rule>, Rule::children> children(const Images& distance,
 /// Area or volume of the shape in the piece; `error` gains the change by the last division. A piece
 /// that the surface may graze unseen is divided until it is smaller than the tolerance itself.
 template <class Rule>
-Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, int depth,
-             const FillAccuracy& accuracy, Change& error) {
+Real divided(const Images& distance, const Sampled<Rule>& parent, Real tolerance, int depth,
+             const FillAccuracy& accuracy, DivisionError& error) {
   const auto child = children(distance, parent);
   Real sum = 0;
   bool unseen = false, bent = false;
-  for (const Piece<Rule>& c : child) {
+  for (const Sampled<Rule>& c : child) {
     sum += c.solid;
     unseen |= c.grazed, bent |= c.bent;
   }
@@ -172,7 +172,7 @@ Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, 
     return sum;
   }
   sum = 0;
-  for (const Piece<Rule>& c : child) {
+  for (const Sampled<Rule>& c : child) {
     sum += c.cut ? divided(distance, c, tolerance, depth + 1, accuracy, error) : c.solid;
   }
   return sum;
@@ -181,7 +181,7 @@ Real divided(const Images& distance, const Piece<Rule>& parent, Real tolerance, 
 /// Sums over the simplices of one cell.
 struct Parts {
   Real solid = 0, whole = 0;
-  Change error;
+  DivisionError error;
 };
 
 template <class Rule>
@@ -189,7 +189,7 @@ void add(Parts& parts, const Images& distance, const std::array<Vec3, Rule::corn
          Real cell_volume, const FillAccuracy& accuracy) {
   std::array<Real, Rule::corners> corner;
   for (std::size_t i = 0; i < Rule::corners; ++i) corner[i] = distance(x[i]);
-  const Piece<Rule> whole = piece<Rule>(distance, x, corner);
+  const Sampled<Rule> whole = piece<Rule>(distance, x, corner);
   parts.whole += geometry::measure(x);
   parts.solid += whole.cut ? divided(distance, whole, accuracy.tolerance * cell_volume, 0, accuracy,
                                      parts.error)

@@ -44,6 +44,21 @@ TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
   }
 }
 
+TEST(Watch, AFlowPastTheLaminarIsToldOnce) {
+  const auto said = [](Watch& watch, Real number) {
+    testing::internal::CaptureStderr();
+    watch.reynolds(number);
+    return testing::internal::GetCapturedStderr();
+  };
+  Watch watch(0);
+  EXPECT_EQ(said(watch, 3900), "");
+  const std::string warning = said(watch, 5120);
+  if (rank() == 0) {
+    EXPECT_NE(warning.find("5.12e+03"), std::string::npos) << warning;
+  }
+  EXPECT_EQ(said(watch, 6000), "");
+}
+
 // A disc between two parallel planes has no end of images; in a corner it has three.
 TEST(Watch, ASolidWithoutAWholeIsTold) {
   const Mesh mesh = test::read_box({.n = {16, 16, 0}});

@@ -63,5 +63,25 @@ TEST(StableStep, GrowsByATenthFromTheFirst) {
   }
 }
 
+// So does a force, or a velocity at a patch, that a driver's function gives.
+TEST(StableStep, FollowsADriversFunctions) {
+  constexpr Real period = 0.05, longest = period / 6;
+  const auto swings = [](const Vec3& x, Real t) {
+    return Vec3{std::sin(2 * std::numbers::pi / period * t) * x.y * (1 - x.y), 0, 0};
+  };
+  const Mesh mesh = test::box_mesh({.n = {8, 4, 0}});
+  Conditions conditions{{"bottom", Wall{}}, {"top", Wall{}}, {"right", Opening{}}};
+  conditions["left"] = Opening{};
+  Solver forced(mesh, {}, {.conditions = conditions, .body_force = swings});
+  conditions["left"] = FixedVelocity{swings};
+  Solver driven(mesh, {}, {.conditions = conditions});
+  for (Solver* solver : {&forced, &driven}) {
+    solver->start([](const Vec3&) { return Vec3{}; });
+    const Limit limit = stable_dt(*solver, {.end = 1});
+    EXPECT_EQ(limit.name, "conditions");
+    EXPECT_LT(limit.dt, longest);
+  }
+}
+
 }  // namespace
 }  // namespace fsi

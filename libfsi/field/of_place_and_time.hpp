@@ -1,0 +1,39 @@
+#pragma once
+// A velocity or a force that a function gives over place and time, for the length of steps.
+
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libfsi/core/types.hpp"
+#include "libfsi/field/of_time.hpp"
+
+namespace fsi {
+
+/// Follows a function u(x, t) at the points where each of its components changes most.
+class OfPlaceAndTime {
+ public:
+  using Function = std::function<Vec3(const Vec3& x, Real t)>;
+  /// points: of this rank, where the function is used. They must outlive it.
+  OfPlaceAndTime(Function given, std::span<const Vec3> points)
+      : given_(std::move(given)), points_(points) {}
+  /// Collective. How long a step from t may be in which no component changes by more than a tenth
+  /// of the largest range of all in [0, end]. Never less than a part in 1e5 of end; end where the
+  /// function is constant in time. What lasts for less than a part in 64 of the run may be missed
+  /// until it comes.
+  Real step_of(Real t, Real end) const;
+
+ private:
+  /// Collective. Finds the points for a run to `end`.
+  void choose(Real end) const;
+
+  Function given_;
+  std::span<const Vec3> points_;
+  // of the last `end` that was asked for:
+  mutable Real end_ = -1;
+  mutable Real whole_ = 0;                // largest range
+  mutable std::vector<OfTime> followed_;  // components at their points
+};
+
+}  // namespace fsi

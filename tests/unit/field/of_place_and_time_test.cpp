@@ -1,0 +1,59 @@
+// How long steps may be for what a function gives over place and time.
+
+#include "libfsi/field/of_place_and_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+/// Points of this rank: those of others lie elsewhere on the x axis.
+std::vector<Vec3> points() {
+  std::vector<Vec3> all;
+  for (int i = 0; i < 8; ++i) all.push_back({rank() + i / 8.0, 0, 0});
+  return all;
+}
+
+TEST(OfPlaceAndTime, AConstantLimitsNoStep) {
+  const std::vector<Vec3> all = points();
+  const OfPlaceAndTime given([](const Vec3& x, Real) { return Vec3{x.x, 2, 0}; }, all);
+  EXPECT_EQ(given.step_of(0, 7), 7);
+}
+
+// A sine takes a tenth of its range, 2, in 0.2 / (2 pi / T) where it is steepest.
+TEST(OfPlaceAndTime, AStepSeesATenthOfTheRange) {
+  const std::vector<Vec3> all = points();
+  constexpr Real T = 0.05;
+  const OfPlaceAndTime given(
+      [](const Vec3& x, Real t) {
+        const bool here = std::abs(x.x - 0.5) < 0.01;  // of rank 0 alone
+        return Vec3{5, here ? std::sin(2 * std::numbers::pi / T * t) : 0, 0};
+      },
+      all);
+  const Real steepest = 0.2 * T / (2 * std::numbers::pi);
+  for (const Real t : {0.0, 0.013, 0.31}) {
+    const Real dt = given.step_of(t, 1);
+    EXPECT_GE(dt, 0.75 * steepest) << t;
+    EXPECT_LE(dt, T / 6) << t;
+  }
+  EXPECT_LE(given.step_of(0, 1), steepest * 1.01) << "at the zero it is steepest";
+}
+
+TEST(OfPlaceAndTime, AComponentThatHardlyChangesLimitsNothing) {
+  const std::vector<Vec3> all = points();
+  const OfPlaceAndTime given(
+      [](const Vec3&, Real t) {
+        return Vec3{t, 1e-3 * std::sin(1000 * t), 0};
+      },
+      all);
+  EXPECT_NEAR(given.step_of(0, 1), 0.1, 0.026);
+}
+
+}  // namespace
+}  // namespace fsi
