@@ -41,12 +41,13 @@ class Courant {
   /// Collective. kappa_f += the term above at inner faces. rho: the largest density.
   void add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, Real rho, Real dt,
                     const FaceWeights& weights);
-  /// Collective, after `add_implicit`. What is taken off the velocity after the momentum equation
-  /// is shared as its matrix would do it, (V + K) new = V change, in the cells with s_c > 0:
-  ///   (V_c + sum_f k_f) new_c - sum_f k_f new_N = V_c change_c,   k_f = kappa_f g_f dt / rho,
-  /// by four symmetric sweeps of Gauss and Seidel, the other cells as they are. Without it a
-  /// gradient of the pressure moves a flat cell by the whole of it in each step, while the momentum
-  /// equation moves it by V / (V + K) of what drives it back: flat cells grow. dt_rho: dt / rho.
+  /// Collective, after `add_implicit`. Shares what is taken off the velocity after the momentum
+  /// equation as the matrix of that equation would do it, (V + K) new = V change. In the cells with
+  /// s_c > 0 four symmetric sweeps of Gauss and Seidel solve
+  ///   (V_c + sum_f k_f) new_c - sum_f k_f new_N = V_c change_c,   k_f = kappa_f g_f dt / rho.
+  /// Others keep their change. Without it a gradient of the pressure moves a flat cell by the whole
+  /// of it in each step. What drives the cell back moves it by V / (V + K) alone, and flat cells
+  /// grow. dt_rho: dt / rho.
   void share(CellField<Vec3>& change, const FaceField<Real>& kappa, Real dt_rho,
              const FaceWeights& weights);
 

@@ -362,7 +362,8 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   const Real carried = solver.body() != nullptr ? solver.carried_dt() : Limit{}.dt;
   std::vector<Limit> all{{std::min(solver.advective_dt(time.courant), carried), "advective"}};
   // What is given over time may come where the flow is slow and would allow any step.
-  all.push_back({solver.conditions_dt(time.end), "conditions"});
+  const Real over_time = solver.conditions_dt(time.end);
+  all.push_back({over_time < time.end ? over_time : Limit{}.dt, "conditions"});
   // A load answers a flow that changes over some steps of the pressure.
   constexpr int least_steps = 20;
   all.push_back({time.end / least_steps, "end"});
