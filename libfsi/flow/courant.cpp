@@ -11,12 +11,14 @@ namespace {
 
 constexpr Real central = 0.6;  // Adams-Bashforth of third order bears 0.72
 constexpr Real upwind = 0.3;   // of second order
+constexpr Real damped = 0.3;   // of third order bears it beside 0.6 i
 constexpr Real tiny = 1e-30;   // a Courant number that is none
 
 }  // namespace
 
 Courant::Courant(const Mesh& mesh, Convection scheme)
     : mesh_(mesh),
+      scheme_(scheme),
       bound_(scheme == Convection::linear || scheme == Convection::symmetric ? central : upwind),
       volume_(mesh.points.size(), 0),
       over_(mesh),
@@ -86,7 +88,11 @@ void Courant::add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, R
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Real asked = std::max(implicit_[P], implicit_[N]), q = std::min(over_[P], over_[N]);
     if (asked == 0) continue;
-    const Real s = std::clamp(2 * q, asked, Real{1}), a = s * s / (bound_ * (s - q));
+    const Real s = std::clamp(2 * q, asked, Real{1});
+    const Real beta = scheme_ == Convection::symmetric ? 0
+                      : scheme_ == Convection::linear  ? weights.damping(f, mesh_)
+                                                       : 1;
+    const Real a = std::max(s * s / (bound_ * (s - q)), s * beta / damped);
     kappa[f] += a * rho * std::abs(phi[f]) / (2 * weights.g[f]);
   }
 }
