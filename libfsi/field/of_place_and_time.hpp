@@ -11,17 +11,18 @@
 
 namespace fsi {
 
-/// Follows a function u(x, t) at the points where each of its components changes most.
+/// Follows a function u(x, t) at up to eight points. The first is where a component comes farthest
+/// from its value at t = 0, in 64 samples of the run. Each next one is where a component does so in
+/// those samples in which no other one is a tenth of the largest range away from its own.
 class OfPlaceAndTime {
  public:
   using Function = std::function<Vec3(const Vec3& x, Real t)>;
   /// points: of this rank, where the function is used. They must outlive it.
   OfPlaceAndTime(Function given, std::span<const Vec3> points)
       : given_(std::move(given)), points_(points) {}
-  /// Collective. How long a step from t may be in which no component changes by more than a tenth
-  /// of the largest range of all in [0, end]. Never less than a part in 1e5 of end; end where the
-  /// function is constant in time. What lasts for less than a part in 64 of the run may be missed
-  /// until it comes.
+  /// Collective. How long a step from t may be in which none of these changes by more than a tenth
+  /// of the largest range in [0, end]. Never less than a part in 1e5 of end; end where the function
+  /// is constant in time. What lasts for less than a part in 64 of the run may be missed.
   Real step_of(Real t, Real end) const;
 
  private:
@@ -30,10 +31,10 @@ class OfPlaceAndTime {
 
   Function given_;
   std::span<const Vec3> points_;
-  // of the last `end` that was asked for:
+  // of the last `end` that was asked for, alike on all ranks:
   mutable Real end_ = -1;
   mutable Real whole_ = 0;                // largest range
-  mutable std::vector<OfTime> followed_;  // components at their points
+  mutable std::vector<OfTime> followed_;  // a component at a point each
 };
 
 }  // namespace fsi

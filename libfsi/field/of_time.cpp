@@ -43,7 +43,8 @@ Real step_of(const OfTime& given, Real most, Real t, Real end) {
   while (length(does) > least * end) ++does;
   while (does - not_yet > 1) {
     const int middle = (does + not_yet) / 2;
-    const bool well = width(given.range(t, t + length(middle))) <= change * most;
+    const Real until = std::min(t + length(middle), std::max(end, t));
+    const bool well = width(given.range(t, until)) <= change * most;
     (well ? does : not_yet) = middle;
   }
   return length(does);

@@ -18,14 +18,15 @@ namespace fsi::flow {
 /// V_v the volume of the cells c' at vertex v. What of its own Courant number Co is beyond C is
 /// taken by an implicit term in increments (Momentum), div(kappa grad(u^(n+1) - u^n)). C is 0.6 for
 /// central and 0.3 for upwind convection.
-///   kappa_f g_f = a_f rho |phi_f| / 2,   a_f = max(s^2 / (C (s - q)), s beta / 0.3),   s =
-///   max(s_P, s_N, min(1, 2 q)), q = min(1 - C / Co_P, 1 - C / Co_N),
+///   kappa_f g_f = a_f rho |phi_f| / 2,   a_f = max(s^2 / (C (s - q)), s beta / 0.2, b_P, b_N),   s
+///   = max(s_P, s_N, min(1, 2 q)), q = min(1 - C / Co_P, 1 - C / Co_N),
 /// where s_P or s_N is above 0: s_c = (1 - C / Co_c) sum_f |phi_f| / sum_inner |phi_f|, from 0 to
-/// 1, in triangles and tetrahedra. beta is the upwind share of the scheme. So the convection of a
-/// step, divided by V + K with K of kappa, stays within C for all waves, whatever the cells' sizes.
-/// The term is an error of the size of |d| dt |u| grad grad du/dt, so of second order where mesh
-/// and step are refined together, and 0 in a steady flow. All other cells have their own rate, and
-/// a term only beside such a cell.
+/// 1, in triangles and tetrahedra. beta is the upwind share of the scheme, and
+/// b_c = s_c / 0.2 sum_b |phi_b| / sum_inner |phi_f| that of the boundary faces b. So the
+/// convection of a step, as the mean of both cells and without the gradient, divided by V + K with
+/// K of kappa, stays within C for all waves, whatever the cells' sizes. The term is an error of the
+/// size of |d| dt |u| grad grad du/dt, so of second order where mesh and step are refined together,
+/// and 0 in a steady flow. All other cells have their own rate, and a term only beside such a cell.
 class Courant {
  public:
   /// Collective. The mesh must outlive it.
@@ -62,11 +63,11 @@ class Courant {
   Convection scheme_;
   Real bound_;
   bool any_simplex_ = false;
-  std::vector<Real> volume_;                  // [points] V_v; 0 where there is no simplex at all
-  CellField<Real> over_, implicit_;           // 1 - C / Co; s_c
-  std::vector<std::pair<Index, Vec3>> fast_;  // scratch: cells with s_c > 0, V change
-  mutable CellField<Real> swept_;             // scratch: 1/2 sum_f |phi_f|
-  mutable std::vector<Real> at_vertex_;       // scratch: R_v
+  std::vector<Real> volume_;                   // [points] V_v; 0 where there is no simplex at all
+  CellField<Real> over_, implicit_, at_edge_;  // 1 - C / Co; s_c; b_c
+  std::vector<std::pair<Index, Vec3>> fast_;   // scratch: cells with s_c > 0, V change
+  mutable CellField<Real> swept_;              // scratch: 1/2 sum_f |phi_f|
+  mutable std::vector<Real> at_vertex_;        // scratch: R_v
 };
 
 }  // namespace fsi::flow

@@ -55,5 +55,22 @@ TEST(OfPlaceAndTime, AComponentThatHardlyChangesLimitsNothing) {
   EXPECT_NEAR(given.step_of(0, 1), 0.1, 0.026);
 }
 
+// One at the place 0.125 in 0.1 to 0.3, another at 0.75 in 0.6 to 0.8, hardly less.
+TEST(OfPlaceAndTime, PulsesAtDifferentPlacesAreFollowed) {
+  const std::vector<Vec3> all = points();
+  const auto pulse = [](Real t, Real begin) {
+    const bool in = t > begin && t < begin + 0.2;
+    return in ? std::sin(std::numbers::pi * (t - begin) / 0.2) : 0;
+  };
+  const OfPlaceAndTime given(
+      [&](const Vec3& x, Real t) {
+        if (std::abs(x.x - 0.125) < 0.01) return Vec3{0, pulse(t, 0.1), 0};
+        return std::abs(x.x - 0.75) < 0.01 ? Vec3{0.99 * pulse(t, 0.6), 0, 0} : Vec3{};
+      },
+      all);
+  for (const Real t : {0.11, 0.15, 0.61, 0.65}) EXPECT_LT(given.step_of(t, 1), 0.02) << t;
+  for (const Real t : {0.0, 0.35}) EXPECT_LT(given.step_of(t, 1), 0.32) << t;
+}
+
 }  // namespace
 }  // namespace fsi

@@ -166,7 +166,7 @@ TEST(Courant, AChangeThatComesAfterIsShared) {
   mesh.halo.update(change);
   courant.share(change, kappa, dt, weights);
   if (fastest < mesh.n_cells) {
-    EXPECT_LT(change[fastest].x, 1.0 / 50);
+    EXPECT_LT(change[fastest].x, 0.3) << "beside another one as fast on another rank";
   }
 }
 
