@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/messages.hpp"
 #include "libfsi/mesh/metrics.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 /// A cell this much smaller than the cube of its longest edge (square in 2-D) has no volume.
 constexpr Real flat = 1e-14;
+/// A triangle or tetrahedron this much smaller has one, and no flow in it can be believed.
+constexpr Real nearly_flat = 1e-7;
 /// Corners this close, as a fraction of the cell's longest distance, are one.
 constexpr Real collapsed = 1e-10;
 /// A corner this much below zero, as a fraction of the product of its edges, folds over.
@@ -127,9 +130,17 @@ void check_volumes(RawMesh& raw) {
     Real longest = 0;
     for (const Vec3& x : corners.all()) longest = std::max(longest, norm(x - corners.x[0]));
     const Real V = cell_metrics(raw.types[c], corners.all()).V;
-    if (!(std::abs(V) > flat * std::pow(longest, raw.dim))) {
+    const Real size = std::abs(V) / std::pow(longest, raw.dim);
+    if (!(size > flat))
       refuse(element(raw, c) + " at " + text_of(corners.mean()) + " has no volume");
-    }
+    const bool simplex = static_cast<int>(corners.all().size()) == raw.dim + 1;
+    if (simplex && size < nearly_flat)
+      refuse(
+          element(raw, c) + " at " + text_of(corners.mean()) +
+          print(" is flat: %.2g of its longest edge to the power of %d is its volume, and %g the "
+                "least; let gmsh optimise the mesh (Mesh.Optimize = 1), or another algorithm "
+                "make it (Mesh.Algorithm3D = 1)",
+                size, raw.dim, nearly_flat));
     return V < 0;
   };
   for (Index c = 0; c < raw.n_cells(); ++c) {

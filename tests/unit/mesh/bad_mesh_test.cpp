@@ -118,6 +118,7 @@ std::vector<Fault> faults_of_cells() {
       {"one cell", quads(1, 1), "has only one cell, element 5"},
       {"flat", with_element(triangles(), "13", "2 2 9 9 1 2 3"),
        "element 13 at (0.333333, 0, 0) has no volume"},
+      {"nearly flat", with_node(triangles(), "6", "0.333333 1e-8 0"), "is flat: 1.5e-08 of its"},
       {"inverted", with_element(good, "13", "3 2 9 9 1 5 6 2"),
        "element 13 at (0.166667, 0.166667, 0) is turned inside out, as 1 of the 9 cells"},
       {"tangled", with_node(good, "6", "0.1 0.1 0"),
