@@ -18,8 +18,10 @@ namespace fsi::flow {
 /// V_v the volume of the cells c' at vertex v. What of its own Courant number Co is beyond C is
 /// taken by an implicit term in increments (Momentum), div(kappa grad(u^(n+1) - u^n)). C is 0.6 for
 /// central and 0.3 for upwind convection.
-///   kappa_f g_f = a_f rho |phi_f| / 2,   a_f = max(s^2 / (C (s - q)), s beta / 0.2, b_P, b_N),   s
-///   = max(s_P, s_N, min(1, 2 q)), q = min(1 - C / Co_P, 1 - C / Co_N),
+///   kappa_f g_f = a_f rho |phi_f| / 2
+///   a_f = max(s^2 / (C (s - q)), s beta / 0.2, b_P, b_N)
+///   s = max(s_P, s_N, min(1, 2 q))
+///   q = min(1 - C / Co_P, 1 - C / Co_N)
 /// where s_P or s_N is above 0: s_c = (1 - C / Co_c) sum_f |phi_f| / sum_inner |phi_f|, from 0 to
 /// 1, in triangles and tetrahedra. beta is the upwind share of the scheme, and
 /// b_c = s_c / 0.2 sum_b |phi_b| / sum_inner |phi_f| that of the boundary faces b. So the
