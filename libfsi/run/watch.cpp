@@ -67,7 +67,10 @@ std::string Watch::energy(Real made, const Solver& solver) {
   const std::string text =
       print("at t = %.4g %.0f %% of the energy comes from nothing (column energy_made of flow.csv)",
             solver.state().t, 100 * made) +
-      ": the steps are too long or the mesh too coarse for the solid's stiffness or viscosity" +
+      (solver.bodies().empty() ? ": the mesh has cells too flat for the flow (fsi-mesh check), or "
+                                 "the steps are too long"
+                               : ": the steps are too long or the mesh too coarse for the solid's "
+                                 "stiffness or viscosity") +
       place_of_strain(solver);
   if (made <= wrong) say("warning", text);
   told_of_energy_ = true;
