@@ -158,10 +158,9 @@ class NamedSides {
 };
 
 /// inside: halves of faces between two cells, by name.
-void tell_of_inside(const RawMesh& raw, const std::vector<std::string>& periodic,
-                    const std::vector<Index>& inside) {
+void tell_of_inside(const RawMesh& raw, const std::vector<Index>& inside) {
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    if (inside[i] == 0 || std::ranges::find(periodic, raw.names[i]) != periodic.end()) continue;
+    if (inside[i] == 0) continue;
     std::fprintf(stderr,
                  "fsi: warning: %s: of \"%s\" so many faces lie between two cells: %lld; the flow "
                  "passes through them, they are no part of the patch\n",
@@ -182,7 +181,9 @@ void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
     const Half h(half);
     const Index name = sides.name_of(point_key(list, h));
     if (mate[half] >= 0) {
-      if (name >= 0) ++inside[name];
+      // The two sides of a periodic seam have corners of their own.
+      const bool seam = point_key(list, h) != point_key(list, Half(mate[half]));
+      if (name >= 0 && !seam) ++inside[name];
       return;
     }
     if (name < 0) {
@@ -200,7 +201,7 @@ void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
                               " boundary faces carry no physical name, the first at " + places +
                               "; names are: " + (raw.names.empty() ? "none" : text_of(raw.names)));
   sides.check_used();
-  tell_of_inside(raw, periodic, inside);
+  tell_of_inside(raw, inside);
   // Names without boundary faces (periodic ones, surfaces inside) are no patches.
   std::vector<std::int8_t> patch(raw.names.size(), -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
