@@ -6,13 +6,16 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
 #include "libfsi/run/table_file.hpp"
+#include "libfsi/run/velocity_table.hpp"
 
 namespace fsi {
 namespace {
@@ -41,6 +44,8 @@ class PatchOptions {
   }
   /// What was read, without what it begins with.
   const std::vector<std::string>& keys() const { return keys_; }
+  /// The table of a velocity that was read; null: none.
+  const VelocityTable* table() const { return table_.get(); }
 
  private:
   /// The option of that key.
@@ -91,7 +96,8 @@ class PatchOptions {
     const Vec3 u = options_.vec3(of("velocity"), {},
                                  {.help = "velocity: the same everywhere", .unit = "velocity"});
     const std::string file = options_.text_or_file(
-        of("velocity_file"), "", "velocity: csv file of x,y,z,ux,uy,uz, taken at the nearest");
+        of("velocity_file"), "",
+        "velocity: csv file of x,y,z,ux,uy,uz; linear about the nearest place");
     require(options_.help() || options_.given(name_ + "velocity") || !file.empty(),
             "option -" + of("velocity") + " is missing: a patch of type velocity needs it or -" +
                 of("velocity_file"));
@@ -102,15 +108,14 @@ class PatchOptions {
         of_time("velocity_factor", "factor", "1", "velocity: what it is multiplied by");
     if (file.empty() || options_.help())
       return FixedVelocity{[=](const Vec3&, Real t) { return factor(t) * u; }, factor};
-    const std::vector<std::vector<Real>> rows =
-        read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}});
-    const auto nearest_row = [rows, factor](const Vec3& x, Real t) {
-      const auto at = [](const std::vector<Real>& row) { return Vec3{row[0], row[1], row[2]}; };
-      const auto nearest = std::ranges::min_element(
-          rows, {}, [&](const std::vector<Real>& row) { return norm2(x - at(row)); });
-      return factor(t) * Vec3{(*nearest)[3], (*nearest)[4], (*nearest)[5]};
-    };
-    return FixedVelocity{nearest_row, factor};
+    std::vector<VelocityTable::Row> rows;
+    for (const std::vector<Real>& row :
+         read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}}))
+      rows.push_back({.x = {row[0], row[1], row[2]}, .u = {row[3], row[4], row[5]}});
+    table_ = std::make_shared<const VelocityTable>(file, std::move(rows));
+    return FixedVelocity{
+        [table = table_, factor](const Vec3& x, Real t) { return factor(t) * (*table)(x); },
+        factor};
   }
   Condition opening(const std::string& type) {
     Opening opening{
@@ -136,6 +141,7 @@ class PatchOptions {
   Options& options_;
   std::string name_;
   std::vector<std::string> keys_{"type"};
+  std::shared_ptr<const VelocityTable> table_;
 };
 
 std::string joined(const std::vector<std::string>& words) {
@@ -236,6 +242,7 @@ Conditions read_patches(Options& options, const Mesh& mesh) {
     PatchOptions of_patch(options, patch.name);
     conditions[patch.name] = of_patch.read(type);
     check_keys(options, mesh, patch.name, type, of_patch.keys());
+    if (of_patch.table()) of_patch.table()->check(mesh, patch);
   }
   return conditions;
 }

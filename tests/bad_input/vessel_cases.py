@@ -63,6 +63,8 @@ def cases(Case):
               "flow_rate or q or value"),
         table("table of a velocity, swapped", "t,value,x\n0,0,0\n", "names 3 columns", "x, y, z, ux, uy, uz",
               key="velocity_file"),
+        table("table of a velocity in millimetres", "x,y,z,ux,uy,uz\n0,250,250,1,0,0\n0,750,750,1,0,0\n",
+              "patch \"left\"", "the same units", key="velocity_file"),
         table("columns of a velocity, swapped", "ux,uy,uz,x,y,z\n0,0,0,1,0,0\n", "column 1", "\"ux\"",
               key="velocity_file"),
         table("table with a word in it", "t,p\n0,1\nnan,2\n", "\"nan,2\"", "2 numbers", key="pressure"),

@@ -1,0 +1,73 @@
+#include "libfsi/run/velocity_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "libfsi/core/error.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+/// n x n places on the square of side 1 across x at x = 2, off a lattice by a fifth.
+VelocityTable table_of(int n, const std::function<Vec3(const Vec3&)>& u) {
+  std::vector<VelocityTable::Row> rows;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec3 x{2, (i + 0.5 + 0.2 * std::sin(7.0 * j)) / n,
+                   (j + 0.5 + 0.2 * std::cos(5.0 * i)) / n};
+      rows.push_back({.x = x, .u = u(x)});
+    }
+  return {"profile.csv", rows};
+}
+
+TEST(VelocityTable, IsExactForALinearVelocity) {
+  const auto u = [](const Vec3& x) { return Vec3{1 + 2 * x.y - 3 * x.z, x.z, 4 - x.y}; };
+  const VelocityTable table = table_of(6, u);
+  for (const Vec3& x : {Vec3{2, 0.31, 0.62}, Vec3{2, 0, 0}, Vec3{2, 1, 0.5}})
+    EXPECT_LT(norm(table(x) - u(x)), 1e-12);
+  // Across the plane of the places it goes on as a constant.
+  EXPECT_LT(norm(table({2.1, 0.31, 0.62}) - u({2, 0.31, 0.62})), 1e-12);
+}
+
+TEST(VelocityTable, IsOfSecondOrder) {
+  const auto u = [](const Vec3& x) { return Vec3{std::sin(3 * x.y) * std::cos(2 * x.z), 0, 0}; };
+  const auto error = [&](int n) {
+    const VelocityTable table = table_of(n, u);
+    Real sum = 0;
+    for (int i = 0; i < 50; ++i)
+      for (int j = 0; j < 50; ++j) {
+        const Vec3 x{2, (i + 0.5) / 50, (j + 0.5) / 50};
+        sum += norm2(table(x) - u(x)) / 2500;
+      }
+    return std::sqrt(sum);
+  };
+  EXPECT_GT(std::log2(error(10) / error(20)), 1.8);
+}
+
+TEST(VelocityTable, TellsPlacesOfElsewhere) {
+  const VelocityTable in_millimetres = table_of(6, [](const Vec3&) { return Vec3{1, 0, 0}; });
+  for (const Real size : {1e-3, 0.1, 10.0, 1e3}) {
+    const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2 * size, size, size}});
+    EXPECT_THROW(in_millimetres.check(mesh, mesh.patch("right")), Error) << size;
+  }
+  const Mesh narrow = test::read_box({.n = {4, 4, 4}, .length = {2, 1e-3, 1e-3}});
+  EXPECT_THROW(in_millimetres.check(narrow, narrow.patch("right")), Error);
+  const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2, 1, 1}});
+  in_millimetres.check(mesh, mesh.patch("right"));
+  EXPECT_THROW(VelocityTable("empty.csv", {}), Error);
+  const VelocityTable one("one.csv", {{.x = {}, .u = {1, 2, 3}}});
+  EXPECT_EQ(one({5, 6, 7}), (Vec3{1, 2, 3}));
+}
+
+TEST(VelocityTable, TakesEqualPlacesAndLines) {
+  const VelocityTable table("line.csv", {{.x = {0, 0, 0}, .u = {0, 0, 0}},
+                                         {.x = {0, 0, 0}, .u = {0, 0, 0}},
+                                         {.x = {0, 1, 0}, .u = {2, 0, 0}}});
+  EXPECT_LT(norm(table({0, 0.25, 0}) - Vec3{0.5, 0, 0}), 1e-14);
+}
+
+}  // namespace
+}  // namespace fsi
