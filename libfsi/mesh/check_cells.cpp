@@ -230,7 +230,8 @@ void check_duplicates(const RawMesh& raw) {
 void check_cells(RawMesh& raw) {
   require(!raw.points.empty(), raw.file + " holds no nodes");
   require(!raw.types.empty(),
-          raw.file + " holds no cells: neither triangles or quads, nor tets, hexes or prisms");
+          raw.file +
+              " holds no cells: neither triangles or quads, nor tets, hexes, prisms or pyramids");
   check_points(raw);
   if (raw.dim == 2) flatten(raw);
   check_repeated(raw);

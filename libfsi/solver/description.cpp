@@ -65,6 +65,20 @@ std::string of_bodies(const std::deque<Body>& bodies, std::string OfBody::*call)
   return line;
 }
 
+std::string numbered(std::size_t call, const char* name, const std::string& what) {
+  std::array<char, 48> head{};
+  std::snprintf(head.data(), head.size(), "(%2zu) %-22s ", call, name);
+  return head.data() + (what.empty() ? "nothing" : what);
+}
+
+/// What is implicit in the momentum equation, by the bodies' part of it.
+std::string with_convection(const std::string& of_bodies, bool convection) {
+  if (!convection) return of_bodies;
+  const std::string cells =
+      "convection of cells that the flow crosses faster than those around them";
+  return of_bodies.empty() ? cells : cells + "; " + of_bodies;
+}
+
 }  // namespace
 
 std::vector<std::string> Solver::describe_step() const {
@@ -73,10 +87,8 @@ std::vector<std::string> Solver::describe_step() const {
   const bool loaded = std::ranges::any_of(conditions_, [](const Condition& one) {
     return fixes_pressure(one) || prescribes_flow(one);
   });
-  std::string implicit = solids(&OfBody::implicit);
-  if (modes_.implicit_convection)
-    implicit = "convection of cells that the flow crosses faster than those around them" +
-               (implicit.empty() ? "" : "; " + implicit);
+  const std::string implicit =
+      with_convection(solids(&OfBody::implicit), modes_.implicit_convection);
   const std::array<std::pair<const char*, std::string>, 18> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},
@@ -104,12 +116,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"hold_mean_velocity", where(forcing_.has_value(), "mean velocity as given")},
   }};
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < calls.size(); ++i) {
-    const auto& [name, what] = calls[i];
-    std::array<char, 48> head{};
-    std::snprintf(head.data(), head.size(), "(%2zu) %-22s ", i + 1, name);
-    lines.push_back(head.data() + (what.empty() ? "nothing" : what));
-  }
+  for (const auto& [name, what] : calls) lines.push_back(numbered(lines.size() + 1, name, what));
   return lines;
 }
 

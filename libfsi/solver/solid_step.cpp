@@ -1,12 +1,10 @@
-// What a step does with the solids: how they are put in, carried, strained, and push.
+// What a step does with the solids: how they are carried, strained, and push.
 
 #include "libfsi/solver/solid_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "libfsi/core/error.hpp"
-#include "libfsi/core/parallel.hpp"
 #include "libfsi/solid/pressure_jump.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 #include "libfsi/solver/solver.hpp"
@@ -14,28 +12,6 @@
 
 namespace fsi {
 namespace {
-
-/// Errors: Error{input} where the body cannot be that one among the others.
-void require_place(const Body& body, const std::deque<Body>& others, const Mesh& mesh) {
-  const std::string which = body.name.empty() ? "the solid" : "solid \"" + body.name + "\"";
-  require(body.filled.volume > 0,
-          which + " is empty: its shape lies outside the mesh or is smaller than a cell");
-  const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
-  require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
-                                                 std::to_string(-body.filled.clearance) +
-                                                 ": move it or make it smaller");
-  for (const Body& other : others) {
-    if (&other == &body) continue;
-    require(other.name != body.name, "two solids have the name \"" + body.name + "\"");
-    Real most = 0;
-    for (Index c = 0; c < mesh.n_owned; ++c)
-      if (body.alpha[c] > 0 && other.alpha[c] > 0)
-        most = std::max(most, body.alpha[c] + other.alpha[c] - 1);
-    constexpr Real error_of_fill = 1e-3;
-    require(global_max(most) < error_of_fill,
-            which + " overlaps solid \"" + other.name + "\" at the start: move one of them");
-  }
-}
 
 /// L = grad u on the listed owned cells; its halo.
 void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, const FlowAround& flow, const Mesh& mesh,
@@ -56,6 +32,21 @@ void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellFiel
   body.mesh.halo.update(u);
 }
 
+/// What the flow does to psi or to a map of the body, less what stands at its surface.
+solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
+                                const FlowAround& flow) {
+  const bool by_flux = body.strain_by_flux();
+  return {.phi = flow.phi,
+          .u = by_flux ? flow.by_flux->u : flow.u,
+          .L = by_flux ? flow.by_flux->L : L,
+          .stencil = flow.pressure.cells,
+          .weights = body.weights,
+          .one_sided = body.interface_gradient ? &*body.interface_gradient : nullptr,
+          .wave_speed = std::sqrt(body.G / body.rho),
+          .recovery = body.G / body.mu,
+          .memory = body.remembers() ? &*body.memory : nullptr};
+}
+
 /// L = that of one side in the zone; the halo too.
 void take_zone(CellField<Tensor>& L, const CellField<Tensor>& of_one_side, const Body& body) {
   for (Index c = 0; c < body.mesh.n_cells; ++c)
@@ -63,64 +54,6 @@ void take_zone(CellField<Tensor>& L, const CellField<Tensor>& of_one_side, const
 }
 
 }  // namespace
-
-void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
-  put_solid({.shape = shape,
-             .G = physics_.G,
-             .mu = physics_.mu_s,
-             .kinematics = kind,
-             .acceleration = physics_.solid_acceleration,
-             .law = physics_.law});
-}
-
-void Solver::put_solid(const Solid& solid) {
-  require(!projection_.orthogonal(),
-          "an orthogonal projection (-flow_projection) is for a fluid without solids");
-  std::vector<Patch> mirrors, walls;
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& here = conditions_[i];
-    if (std::holds_alternative<Slip>(here)) mirrors.push_back(mesh_.patches[i]);
-    if (std::holds_alternative<Wall>(here) || std::holds_alternative<FixedVelocity>(here))
-      walls.push_back(mesh_.patches[i]);
-  }
-  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls);
-  Body& body = bodies_.back();
-  body.t = state_.t;
-  require_place(body, bodies_, mesh_);
-  set_modes(body);
-  fractions_.push_back({.alpha = &body.alpha, .mid = &body.alpha_mid});
-  if (bodies_.size() > 1) {
-    separation_.emplace(mesh_, bodies_.size());
-    if (!mixed_mu_) mixed_mu_.emplace(mesh_);
-  }
-  mix_viscosity(mu_);
-  mix_density();
-  hold_backup();
-}
-
-void Solver::set_modes(const Body& body) {
-  modes_.stiff = modes_.stiff || (body.semi_implicit() && body.G > 0);
-  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
-  modes_.one_sided = modes_.one_sided || body.interface_gradient;
-  modes_.G = std::max(modes_.G, body.G);
-  modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});
-  if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
-  if (body.mu != physics_.mu_f) {
-    modes_.mu_varies = true;
-    // The transposed viscous term is explicit: backward Euler where it is large.
-    if (body.mu > 2 * physics_.mu_f || physics_.mu_f > 2 * body.mu) momentum_.theta = 1;
-  }
-  if (modes_.mu_varies) {
-    Real most = physics_.mu_f;
-    for (const Body& one : bodies_) most = std::max(most, one.mu);
-    momentum_.bound_explicit_viscosity(physics_.rho / modes_.rho_least * most);
-  }
-  if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
-  if (body.two_viscosities) {
-    if (!stiff_) stiff_.emplace(mesh_);
-    momentum_.hold_old();
-  }
-}
 
 void hold_shape(Body& body) { body.hold_shape(); }
 
@@ -209,21 +142,13 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
-  const solid::Contact contact{flow.u_b, body.touched};
   const CellField<Real>& fraction = body.fraction_of_strain();
   if (body.off_walls) body.off_walls->set(fraction, body.mesh);
+  const solid::Contact contact{flow.u_b, body.touched};
   const solid::CutFaces cuts{body.alpha_f, body.normal_f, fraction};
-  const solid::FlowSnapshot snapshot{.phi = flow.phi,
-                                     .u = by_flux ? flow.by_flux->u : flow.u,
-                                     .L = by_flux ? flow.by_flux->L : L,
-                                     .stencil = flow.pressure.cells,
-                                     .weights = body.weights,
-                                     .one_sided = one_sided ? &*one_sided : nullptr,
-                                     .contact = &contact,
-                                     .cuts = body.two_viscosities ? nullptr : &cuts,
-                                     .wave_speed = std::sqrt(body.G / body.rho),
-                                     .recovery = body.G / body.mu,
-                                     .memory = body.remembers() ? &*body.memory : nullptr};
+  solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
+  snapshot.contact = &contact;
+  if (!body.two_viscosities) snapshot.cuts = &cuts;
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());
