@@ -96,7 +96,7 @@ void read_material(Options& options, const std::string& of, const Physics& physi
                    {.help = "dynamic viscosity of the solid, at most 200 times that of the fluid",
                     .unit = "mass / (length time)",
                     .min = 0});
-  require(solid.mu <= 200 * physics.mu_f,  // doc/verification/shape.md
+  require(solid.mu <= 200 * physics.mu_f,  // doc/verification/stiff.md
           "option -" + of +
               "viscosity: must be at most 200 times -fluid_viscosity; for a body that is " +
               "nearly rigid take a large -" + of + "shear_modulus");
