@@ -73,10 +73,13 @@ def compare_shapes(out, data, folder, n):
         far.append(max(distance(lines[k], polygon), distance(polygon, lines[k])) * n)
         axis = axes.flat[k]
         axis.fill(polygon[:, 0], polygon[:, 1], color="0.8", label="reference")
-        axis.plot(*lines[k].T, "r", lw=1, label=f"N = {n}")
+        axis.plot(*lines[k].T, "#D55E00", lw=1.2, label=f"N = {n}")
         axis.set(title=f"t = {time}", aspect="equal", xlim=(0, 1), ylim=(0, 1))
     axes.flat[0].legend(fontsize=8)
     axes.flat[-1].axis("off")
+    axes[0, 3].tick_params(labelbottom=True)
+    figure.supxlabel("x, sides of the cavity", fontsize=10)
+    figure.supylabel("y, sides of the cavity", fontsize=10)
     figure.tight_layout()
     figure.savefig(os.path.join(folder, f"shape-{n}.png"), dpi=80)
     print("  Hausdorff distance in cells at t = " +
