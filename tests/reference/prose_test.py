@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The judges of the documents judged: sentences of a page and of comments, and links that lead nowhere."""
+"""The judges of the documents judged: sentences, links that lead nowhere, what a page of verification holds."""
 import os
 import sys
 import tempfile
@@ -8,6 +8,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import comments  # noqa: E402
 import links  # noqa: E402
+import pages  # noqa: E402
 import prose  # noqa: E402
 
 
@@ -79,6 +80,24 @@ class Links(unittest.TestCase):
             for link in ("b.md", "a.md#b", "#b", "../nowhere/"):
                 self.assertEqual(list(links.faults(page, f"x\n[y]({link})\n")), [(2, link)])
             self.assertEqual(list(links.faults(page, "```\n[y](b.md)\n```\n`[y](b)`\n")), [])
+
+
+class Pages(unittest.TestCase):
+    TABLE = "| a | b |\n|---|---|\n" + 15 * "| 1 | 2 |\n"
+    PAGE = "# A\n\n" + TABLE + "\n![x](a.png)\n\n    ctest -R a\n"
+
+    def test_hold_one_table_one_picture_and_a_command(self):
+        self.assertEqual(list(pages.faults(self.PAGE)), [])
+        self.assertEqual(list(pages.faults(self.PAGE.replace("    ctest -R a", "```\nfsi-mesh check a\n```"))), [])
+        for faulty in (self.PAGE + "\n" + self.TABLE, self.PAGE.replace(self.TABLE, ""),
+                       self.PAGE.replace(self.TABLE, self.TABLE + "| 1 | 2 |\n"), self.PAGE + "![y](b.png)\n",
+                       self.PAGE.replace("!", ""), self.PAGE.replace("    ctest", "ctest"),
+                       self.PAGE.replace("ctest -R a", "U = g a"), self.PAGE + 150 * "\n"):
+            self.assertEqual(len(list(pages.faults(faulty))), 1, faulty)
+
+    def test_have_the_picture_of_their_table(self):
+        for content, faults in ((pages.mark(self.TABLE), 0), (pages.mark(self.TABLE + "| 3 |\n"), 1), ("", 0)):
+            self.assertEqual(len(list(pages.faults(self.PAGE, lambda _, c=content: c.encode()))), faults)
 
 
 if __name__ == "__main__":
