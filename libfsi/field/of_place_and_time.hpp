@@ -16,6 +16,7 @@ namespace fsi {
 /// those samples in which no other one is a tenth of the largest range away from its own.
 class OfPlaceAndTime {
  public:
+  /// A vector at a place and a time.
   using Function = std::function<Vec3(const Vec3& x, Real t)>;
   /// points: of this rank, where the function is used. They must outlive it.
   OfPlaceAndTime(Function given, std::span<const Vec3> points)

@@ -20,8 +20,10 @@ namespace fsi {
 /// second order in the distance of the places.
 class VelocityTable {
  public:
+  /// A place and the velocity there.
   struct Row {
-    Vec3 x, u;
+    Vec3 x;  ///< place
+    Vec3 u;  ///< velocity
   };
 
   /// name: what errors call the table. Errors: Error{input} where it has no row.
@@ -32,6 +34,7 @@ class VelocityTable {
   /// same place. A table of one place holds everywhere.
   void check(const Mesh& mesh, const Patch& patch) const;
 
+  /// u(x).
   Vec3 operator()(const Vec3& x) const;
 
  private:
