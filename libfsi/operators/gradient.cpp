@@ -48,7 +48,8 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
 }  // namespace
 
 GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
-                                 const std::vector<bool>& has_value)
+                                 const std::vector<bool>& has_value,
+                                 const std::vector<bool>& at_foot)
     : weights(weights_),
       owner(static_cast<std::size_t>(mesh.n_faces)),
       neighbour(static_cast<std::size_t>(mesh.n_internal)),
@@ -66,14 +67,14 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
   for (std::size_t i = 0; i < mesh.patches.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index P = mesh.owner[f];
-      const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f];
+      const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f], n = mesh.Sf[f] / norm(mesh.Sf[f]),
+                 foot = dot(mesh.d[f], n) * n;
       given[f - mesh.n_internal] = has_value[i] ? 1 : 0;
       if (has_value[i]) {
         owner[f] = g0;
-        M[P] += outer(g0, mesh.d[f]);
+        M[P] += outer(g0, !at_foot.empty() && at_foot[i] ? foot : mesh.d[f]);
       } else {
-        const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-        fallback[P] += outer(g0, mesh.d[f] - dot(mesh.d[f], n) * n);
+        fallback[P] += outer(g0, mesh.d[f] - foot);
       }
     }
   for (Index c = 0; c < mesh.n_owned; ++c) {

@@ -17,8 +17,11 @@ namespace fsi {
 /// Boundary faces take part where the field has a value there; on the other patches the field is
 /// extrapolated linearly from inside.
 struct GradientStencil {
-  /// has_value[i]: whether the field is given on mesh.patches[i].
-  GradientStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& has_value);
+  /// has_value[i]: whether the field is given on mesh.patches[i]. at_foot[i], none: false, whether
+  /// the value there is that at the foot of the cell's centre on the face, as on a plane of
+  /// symmetry the cell's own along the plane is, and not that at the face's centre.
+  GradientStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& has_value,
+                  const std::vector<bool>& at_foot = {});
 
   const FaceWeights& weights;   ///< of the faces
   std::vector<Vec3> owner;      ///< [n_faces] g_Pf; zero on patches without a value

@@ -29,12 +29,21 @@ inline Tensor image(const Tensor& g, const Vec3& n) {
   return gR + outer(-2 * n, n.x * x + n.y * y + n.z * z);
 }
 
+/// Image of a tensor: R T R.
+inline SymTensor image(const SymTensor& T, const Vec3& n) {
+  const Vec3 t = dot(T, n), s = 2 * (dot(n, t) * n - t);  // R T R = T + s n + n s
+  return {T.xx + 2 * s.x * n.x, T.xy + s.x * n.y + n.x * s.y, T.xz + s.x * n.z + n.x * s.z,
+          T.yy + 2 * s.y * n.y, T.yz + s.y * n.z + n.y * s.z, T.zz + 2 * s.z * n.z};
+}
+
 /// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, in
 /// each plane of symmetry that c has a face on. n is the normal of the plane, r goes from the
 /// centre of c to that of the image of k. A cell counts as one at the plane when its centre is not
-/// twice as far from it as that of c.
+/// twice as far from it as that of c; from a triangle or tetrahedron 3.5 times, since the centres
+/// of those that stand on a corner or an edge of the plane are up to three times as far.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
+  const Real reach = mesh.simplex(c) ? 3.5 : 2;
   for (const Index face : mesh.cell_faces[c]) {
     if (!symmetry.has(face, mesh)) continue;
     const Vec3 n = mesh.Sf[face] / norm(mesh.Sf[face]);
@@ -42,7 +51,7 @@ void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Functi
     f(c, (2 * own) * n, n);
     for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& r) {
       const Real height = own - dot(r, n);
-      if (height > 0 && height < 2 * own) f(k, r + (2 * height) * n, n);
+      if (height > 0 && height < reach * own) f(k, r + (2 * height) * n, n);
     });
   }
 }

@@ -2,6 +2,7 @@
 // Elastic stress of a solid and the force it puts into the momentum equation.
 
 #include "libfsi/field/band.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/balanced_jump_force.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
 
@@ -9,13 +10,13 @@ namespace fsi::solid {
 
 /// What the stress is made of.
 struct ElasticState {
-  const CellField<SymTensor>& T;      ///< what the law makes of B (law/law.hpp), neo-Hookean: B; on
-                                      ///< the band's cells, zero elsewhere; owned and halo
-  const CellField<Real>& alpha;       ///< owned and halo
-  const FaceField<Real>* alpha_f{};   ///< part of solid at the band's faces; T is then known around
-                                      ///< the solid as well. None: from alpha T of the cells
-  const FaceField<Vec3>* normal{};    ///< of the interface there, zero without one; with alpha_f
-  const std::vector<char>* mirror{};  ///< [n_boundary] 1 on planes of symmetry, which bear no shear
+  const CellField<SymTensor>& T;     ///< what the law makes of B (law/law.hpp), neo-Hookean: B; on
+                                     ///< the band's cells, zero elsewhere; owned and halo
+  const CellField<Real>& alpha;      ///< owned and halo
+  const FaceField<Real>* alpha_f{};  ///< part of solid at the band's faces; T is then known around
+                                     ///< the solid as well. None: from alpha T of the cells
+  const FaceField<Vec3>* normal{};   ///< of the interface there, zero without one; with alpha_f
+  const SymmetryFaces* mirror{};     ///< planes of symmetry, which bear no shear
 };
 
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
@@ -32,7 +33,9 @@ class ElasticForce {
   ///             + sum_f g_cf s (alpha_n - alpha_c).
   /// The part that a jump of the pressure bears is differenced as the pressure is, by the weights
   /// g_cf of the stencil. The other is differenced as the viscous flux. Skewness correction
-  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly.
+  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly. Beyond a plane of
+  /// symmetry the image of a triangle or tetrahedron is one of its neighbours: an extrapolation
+  /// from the three others answers to T_P four times as strongly as the strain does.
   /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f
   /// that of the cells' alpha times T, and that of the jump of the pressure. It vanishes for a
   /// linear stress. Both are added to what is there. force: owned and halo after. grad: scratch

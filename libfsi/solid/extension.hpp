@@ -2,10 +2,12 @@
 // Values of the solid's interior carried outward into the fluid.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
 #include "libfsi/solid/rings.hpp"
 
@@ -20,7 +22,8 @@ inline constexpr Real alpha_known = 0.5;
 ///   linear     T = sum w (T_k + g_k . r) / sum w,   g = sum w g_k / sum w
 ///   constant   T = sum w T_k / sum w
 ///
-/// g of a known cell is that of least squares over its known vertex neighbours. It counts as far as
+/// g of a known cell is that of least squares over its known vertex neighbours and their images
+/// beyond a plane of symmetry. It counts as far as
 /// the mean m over the surrounded ones among them bears it out, by (g : m) / (g : g) within [0, 1].
 /// A cell with no known one behind any of its faces counts as not known: the strain of such a speck
 /// is told by nothing and would grow without bound. Surrounded: the face neighbours are all known
@@ -28,8 +31,9 @@ inline constexpr Real alpha_known = 0.5;
 /// as a constant; what alternates from cell to cell is not extrapolated.
 class Extension {
  public:
-  /// mesh must outlive it.
-  explicit Extension(const Mesh& mesh) : mesh_(mesh), zone_(mesh), rings_(mesh) {}
+  /// symmetry: where known cells go on as their images, R T R. mesh must outlive it.
+  explicit Extension(const Mesh& mesh, SymmetryFaces symmetry = {})
+      : mesh_(mesh), symmetry_(std::move(symmetry)), zone_(mesh), rings_(mesh) {}
 
   /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known, and finds its
   /// inner cells: those whose face neighbours are all known.
@@ -40,10 +44,10 @@ class Extension {
   /// Collective. Damps what alternates from known cell to known cell in a time dt,
   ///   T += (1 - exp(-C r dt)) sum w (T_k - T - (g + g_k) / 2 . (x_k - x)) / sum w,
   ///   r = min(speed / h, recovery),  h = V^(1/dim),  C = 0.1,
-  /// over the known vertex neighbours k, g the least squares: fourth differences [Jameson81],
-  /// nothing of a linear T. Works in the cells where `where` is not zero. T: of owned known cells;
-  /// slope: as above; speed, recovery: of a wave of the cells' length, where viscosity does not
-  /// matter and where it rules.
+  /// over the known vertex neighbours k and their images, g the least squares: fourth differences
+  /// [Jameson81], nothing of a linear T. Works in the cells where `where` is not zero. T: of owned
+  /// known cells; slope: as above; speed, recovery: of a wave of the cells' length, where viscosity
+  /// does not matter and where it rules.
   void fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope,
                                 const CellField<Real>& where, Real speed, Real recovery, Real dt);
   /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is
@@ -65,6 +69,7 @@ class Extension {
   SymGradient limited_slope(const CellField<SymGradient>& slope, Index c) const;
 
   const Mesh& mesh_;
+  SymmetryFaces symmetry_;
   CellField<Real> zone_;  // 1: near, 2: inner, 3: and away from the boundary
   Rings rings_;
   std::vector<Index> known_, alone_, near_;  // alone_: in the band, but taken for unknown

@@ -17,11 +17,21 @@ struct OfOneSide {
   Vec3 operator[](Index c) const { return u[c] - kink[c]; }
 };
 
+/// The velocity that a wall gives at a face; null where none does.
+struct OfWalls {
+  const BoundaryField<Vec3>& u_b;
+  const BoundarySides& sides;
+  const Mesh& mesh;
+  const Vec3* operator()(Index f) const {
+    const Index b = f - mesh.n_internal;
+    return b < 0 || (!sides.given.empty() && sides.given[b] == 0) ? nullptr : &u_b[b];
+  }
+};
+
 /// The fit about c over the neighbours n with same(n), with their L where has_L(n).
 template <class Velocity, class Same, class HasL>
-std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
-                          const BoundaryField<Vec3>& u_b, const Same& same, const HasL& has_L,
-                          const Mesh& mesh, Index c) {
+std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u, const OfWalls& walls,
+                          const Same& same, const HasL& has_L, const Mesh& mesh, Index c) {
   QuadraticFit quadratic(mesh.dim, cell_size(mesh, c));
   const Vec3 u_c = u[c];
   for_vertex_neighbours(c, mesh, [&](Index n, const Vec3& r) {
@@ -29,8 +39,13 @@ std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u,
     quadratic.add_value(r, u[n] - u_c);
     if (has_L(n)) quadratic.add_gradient(r, L[n]);
   });
+  for_images(c, walls.sides.symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (!same(k)) return;
+    quadratic.add_value(r, image(u[k], n) - u_c);
+    if (has_L(k)) quadratic.add_gradient(r, image(L[k], n));
+  });
   for (const Index f : mesh.cell_faces[c])
-    if (f >= mesh.n_internal) quadratic.add_value(mesh.d[f], u_b[f - mesh.n_internal] - u_c);
+    if (const Vec3* u_f = walls(f)) quadratic.add_value(mesh.d[f], *u_f - u_c);
   return quadratic.gradient();
 }
 
@@ -83,12 +98,13 @@ void InterfaceGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto none = [](Index) { return false; };
   const OfOneSide u_in{u, kink_in_}, u_out{u, kink_out_};
+  const OfWalls walls{u_b, sides_, mesh_};
   for (const Index c : last_deep_) deep_[c] = 0;
   last_deep_.clear();
   for (const Index c : cells) {
     if (!zone_.has(c) || !known(c) || !std::ranges::all_of(mesh_.cell_neighbours[c], known))
       continue;
-    const auto whole = fit(L, u_in, u_b, known, none, mesh_, c);
+    const auto whole = fit(L, u_in, walls, known, none, mesh_, c);
     if (!whole) continue;
     L[c] = *whole;
     deep_[c] = 1;
@@ -102,7 +118,7 @@ void InterfaceGradient::fit_cells(CellField<Tensor>& L, const CellField<Vec3>& u
     const bool in = known(c);
     const auto same = [&](Index n) { return known(n) == in; };
     const auto sided =
-        in ? fit(L, u_in, u_b, same, deep, mesh_, c) : fit(L, u_out, u_b, same, none, mesh_, c);
+        in ? fit(L, u_in, walls, same, deep, mesh_, c) : fit(L, u_out, walls, same, none, mesh_, c);
     if (sided) L[c] = *sided;
   }
   mesh_.halo.update(L);
@@ -114,7 +130,7 @@ void InterfaceGradient::set_strain(const CellField<Tensor>& L, const CellField<V
   const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
   const auto deep = [&](Index c) { return deep_[c] > 0; };
   const auto set = [&](Index c) { return zone_.near(c); };
-  const auto u_at = [&](Index f) { return &u_b[f - mesh_.n_internal]; };
+  const OfWalls walls{u_b, sides_, mesh_};
   const OfOneSide u_in{u, kink_in_};
   beside_.clear();
   for (const Index c : cells) {
@@ -127,8 +143,9 @@ void InterfaceGradient::set_strain(const CellField<Tensor>& L, const CellField<V
   for (int i = 0; i < sweeps; ++i) {
     swept_.clear();
     for (const Index c : beside_)
-      swept_.push_back(i == 0 ? one_sided_gradient(strain_, u_in, known, deep, u_at, mesh_, c)
-                              : one_sided_gradient(strain_, u_in, known, set, u_at, mesh_, c));
+      swept_.push_back(
+          i == 0 ? one_sided_gradient(strain_, u_in, known, deep, walls, mesh_, c, sides_.symmetry)
+                 : one_sided_gradient(strain_, u_in, known, set, walls, mesh_, c, sides_.symmetry));
     for (std::size_t k = 0; k < beside_.size(); ++k) strain_[beside_[k]] = swept_[k];
     mesh_.halo.update(strain_);
   }

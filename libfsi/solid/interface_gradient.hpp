@@ -2,10 +2,12 @@
 // The velocity gradient on triangles and tetrahedra with a solid: of second order, of one side.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/simplex_zone.hpp"
 
 namespace fsi::solid {
@@ -19,6 +21,13 @@ struct Cuts {
   const CellField<Real>& fluid_side;  ///< phi - s: to that of the fluid's, u = u_F + j (phi - s)
 };
 
+/// What the velocity is at the faces of the boundary. Where neither holds, at an opening, it goes
+/// on as inside: the boundary's value there is the cell's own and tells no gradient.
+struct BoundarySides {
+  std::vector<char> given{};  ///< [n_boundary] 1 where a wall gives it; empty: everywhere
+  SymmetryFaces symmetry{};   ///< beyond these lie the images of the cells
+};
+
 /// Sets L in the listed cells of the zone: those of the solid (alpha >= 1/2) that know their
 /// strain, and all that share a vertex with one.
 ///
@@ -28,7 +37,8 @@ struct Cuts {
 /// non-orthogonal part of the viscous flux passes on to the velocity.
 ///
 /// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
-/// cell's own side of alpha = 1/2 and of the cell's boundary faces. Cells of the solid beside its
+/// cell's own side of alpha = 1/2, of their images beyond a plane of symmetry and of the cell's
+/// faces on walls. Cells of the solid beside its
 /// surface take the gradients of those farther in as well. That does not tell L where the solid, or
 /// what is around it, is thinner than the stencil. There L stays the library's, which answers to
 /// the stress as that acts on the velocity. One of the few values of one side alone does not, and
@@ -43,8 +53,14 @@ struct Cuts {
 class InterfaceGradient {
  public:
   /// mesh and zone must outlive it.
-  InterfaceGradient(const Mesh& mesh, const SimplexZone& zone)
-      : mesh_(mesh), zone_(zone), deep_(mesh), strain_(mesh), kink_in_(mesh), kink_out_(mesh) {}
+  InterfaceGradient(const Mesh& mesh, const SimplexZone& zone, BoundarySides sides = {})
+      : mesh_(mesh),
+        zone_(zone),
+        sides_(std::move(sides)),
+        deep_(mesh),
+        strain_(mesh),
+        kink_in_(mesh),
+        kink_out_(mesh) {}
 
   /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
@@ -75,6 +91,7 @@ class InterfaceGradient {
 
   const Mesh& mesh_;
   const SimplexZone& zone_;
+  BoundarySides sides_;
   CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
   std::vector<Index> last_deep_;
   CellField<Tensor> strain_;

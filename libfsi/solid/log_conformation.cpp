@@ -38,8 +38,8 @@ bool by_fit(const FlowSnapshot& snapshot, Index c) {
 
 }  // namespace
 
-LogConformation::LogConformation(const Mesh& mesh)
-    : psi(mesh), mesh_(mesh), known_(mesh), extension_(mesh) {}
+LogConformation::LogConformation(const Mesh& mesh, const SymmetryFaces& symmetry)
+    : psi(mesh), mesh_(mesh), known_(mesh), extension_(mesh, symmetry) {}
 
 void LogConformation::set_undeformed(const CellField<Real>& alpha) {
   psi.fill({});

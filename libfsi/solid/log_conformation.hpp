@@ -21,7 +21,7 @@ namespace fsi::solid {
 class LogConformation {
  public:
   /// mesh must outlive it.
-  explicit LogConformation(const Mesh& mesh);
+  explicit LogConformation(const Mesh& mesh, const SymmetryFaces& symmetry = {});
 
   /// Below this fraction a cell carries no stress: round-off of the interface.
   static constexpr Real alpha_min = 1e-9;

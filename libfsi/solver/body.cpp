@@ -10,11 +10,19 @@
 namespace fsi {
 namespace {
 
+/// [n_boundary] 1 on the faces of these patches, else 0.
+std::vector<char> on_faces(const std::vector<Patch>& patches, const Mesh& mesh) {
+  std::vector<char> is(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  for (const Patch& patch : patches)
+    for (Index f = patch.begin; f < patch.end; ++f) is[f - mesh.n_internal] = 1;
+  return is;
+}
+
 Kinematics make(const Mesh& mesh, KinematicsKind kind, const SymmetryFaces& symmetry) {
   if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
   if (kind == KinematicsKind::reference_map)
     return solid::ReferenceMap(mesh, solid::ReferenceMap::Role::alone, {}, symmetry);
-  return solid::LogConformation(mesh);
+  return solid::LogConformation(mesh, symmetry);
 }
 
 }  // namespace
@@ -88,11 +96,9 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       shape(solid.shape),
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
       hold_scratch(mesh),
-      mirror(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      mirror{mirrors.empty() ? std::vector<char>{} : on_faces(mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
-  for (const Patch& patch : mirrors)
-    for (Index f = patch.begin; f < patch.end; ++f) mirror[f - mesh.n_internal] = 1;
-  hold_parts(physics);
+  hold_parts(physics, walls);
   if (extended() && mesh.dim == 3 && zone.any()) off_walls.emplace(mesh, walls, zone);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
@@ -104,10 +110,13 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   resume();
 }
 
-void Body::hold_parts(const Physics& physics) {
+void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
   if (!law.B_itself()) T_of_law.emplace(mesh);
-  if (std::holds_alternative<solid::LogConformation>(kinematics) && zone.any())
-    interface_gradient.emplace(mesh, zone), kink_profile.emplace(mesh);
+  if (std::holds_alternative<solid::LogConformation>(kinematics) && zone.any()) {
+    interface_gradient.emplace(
+        mesh, zone, solid::BoundarySides{.given = on_faces(walls, mesh), .symmetry = mirror});
+    kink_profile.emplace(mesh);
+  }
   if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);

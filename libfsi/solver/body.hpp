@@ -78,7 +78,7 @@ struct Body {
   /// other kinematics.
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight ask for.
-  void hold_parts(const Physics& physics);
+  void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
   /// Collective. Renews what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -204,7 +204,7 @@ struct Body {
   Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
-  std::vector<char> mirror;       ///< [n_boundary] 1 on planes of symmetry
+  SymmetryFaces mirror;           ///< planes of symmetry
   std::vector<char> specks;       ///< [n_owned] scratch
   Real volume_out = 0;            ///< what left the mesh or was taken out after it
   Real residue = 0;               ///< of this: what was taken out at the end, by this program

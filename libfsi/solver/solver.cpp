@@ -22,6 +22,14 @@ std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
   return given;
 }
 
+/// Where the velocity along a patch is that of the cells.
+std::vector<bool> symmetric(const std::vector<Condition>& conditions) {
+  std::vector<bool> slips;
+  for (const Condition& condition : conditions)
+    slips.push_back(std::holds_alternative<Slip>(condition));
+  return slips;
+}
+
 /// Velocities of the boundary without a pace of their own, and the force.
 std::vector<OfPlaceAndTime> over_time(const std::vector<Condition>& conditions,
                                       const OfPlaceAndTime::Function& force, const Mesh& mesh) {
@@ -62,7 +70,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
       rhie_chow_source_(mesh),
-      u_stencil_(mesh, weights_, velocity_given(conditions_)),
+      u_stencil_(mesh, weights_, velocity_given(conditions_), symmetric(conditions_)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
       openings_(mesh, conditions_, physics.rho),
