@@ -1,10 +1,7 @@
 #include "libfsi/solid/elastic_force.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 
-#include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi::solid {
@@ -25,38 +22,6 @@ Vec3 to_face(const ElasticState& solid, const Mesh& mesh, Index f) {
     return d;
   const Vec3& S = mesh.Sf[f];
   return d - (dot(d, S) / norm2(S)) * S;
-}
-
-/// The slope of T in a cell at a plane of symmetry, by least squares over its face neighbours and
-/// its own image.
-SymGradient slope_at_plane(const CellField<SymTensor>& T, const SymmetryFaces& symmetry,
-                           const Mesh& mesh, Index c) {
-  SymTensor M;
-  SymGradient R;
-  const auto add = [&](const SymTensor& rise, const Vec3& r) {
-    const Real w = 1 / norm2(r);
-    M += w * square(r);
-    R += w * outer(rise, r);
-  };
-  for (const Index f : mesh.cell_faces[c]) {
-    const Index k = beyond(mesh, f, c);
-    if (k >= 0) add(T[k] - T[c], mesh.owner[f] == c ? mesh.d[f] : -mesh.d[f]);
-    if (!symmetry.has(f, mesh)) continue;
-    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-    add(image(T[c], n) - T[c], (2 * dot(mesh.d[f], n)) * n);
-  }
-  const SymTensor K = raised_inverse(M, mesh.dim);
-  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.xy, K.yy, K.yz}), along(R, {K.xz, K.yz, K.zz})};
-}
-
-void set_slopes_at_planes(CellField<SymGradient>& grad, const ElasticState& solid, const Mesh& mesh,
-                          std::span<const Index> cells) {
-  if (solid.mirror == nullptr || solid.mirror->is.empty()) return;
-  for (const Index c : cells) {
-    const auto at_plane = [&](Index f) { return solid.mirror->has(f, mesh); };
-    if (mesh.simplex(c) && std::ranges::any_of(mesh.cell_faces[c], at_plane))
-      grad[c] = slope_at_plane(solid.T, *solid.mirror, mesh, c);
-  }
 }
 
 /// (grad)_f . r, the mean of the two cells of internal face f.
@@ -149,7 +114,8 @@ void ElasticForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_sour
     gradient(grad, solid.T, pressure.cells, mesh_, band.core());
   else
     gradient(grad, solid.alpha, solid.T, pressure.cells, mesh_, band.cells());
-  if (sharp) set_slopes_at_planes(grad, solid, mesh_, band.core());
+  if (sharp && solid.mirror != nullptr)
+    set_slopes_at_planes(grad, solid.T, *solid.mirror, mesh_, band.core());
   mesh_.halo.update(grad, band.listed());
   if (sharp)
     add_cut_face(force, rhie_chow_source, solid, weights, pressure, band, grad);

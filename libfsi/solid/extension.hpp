@@ -54,6 +54,7 @@ class Extension {
   /// touched. T: set on owned known cells before; where: not zero there, owned and halo.
   void constant(CellField<SymTensor>& T, const CellField<Real>& where);
 
+  const SymmetryFaces& symmetry() const { return symmetry_; }  ///< as given
   /// Whether cell c is an inner one; owned and halo.
   bool inner(Index c) const { return zone_[c] > 1; }
   /// Not zero in known cells and rings, those of the last two calls of `mark`; owned and halo.

@@ -1,5 +1,8 @@
 #include "libfsi/solid/flow_snapshot.hpp"
 
+#include <algorithm>
+
+#include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi::solid {
@@ -20,6 +23,28 @@ void gradient_of(CellField<SymGradient>& grad, const Value& value, const Gradien
   }
 }
 
+/// The slope of T in a cell at a plane of symmetry, by least squares over its face neighbours and
+/// its own image.
+SymGradient slope_at_plane(const CellField<SymTensor>& T, const SymmetryFaces& symmetry,
+                           const Mesh& mesh, Index c) {
+  SymTensor M;
+  SymGradient R;
+  const auto add = [&](const SymTensor& rise, const Vec3& r) {
+    const Real w = 1 / norm2(r);
+    M += w * square(r);
+    R += w * outer(rise, r);
+  };
+  for (const Index f : mesh.cell_faces[c]) {
+    const Index k = beyond(mesh, f, c);
+    if (k >= 0) add(T[k] - T[c], mesh.owner[f] == c ? mesh.d[f] : -mesh.d[f]);
+    if (!symmetry.has(f, mesh)) continue;
+    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    add(image(T[c], n) - T[c], (2 * dot(mesh.d[f], n)) * n);
+  }
+  const SymTensor K = raised_inverse(M, mesh.dim);
+  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.xy, K.yy, K.yz}), along(R, {K.xz, K.yz, K.zz})};
+}
+
 }  // namespace
 
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
@@ -33,6 +58,17 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               std::span<const Index> cells) {
   gradient_of(
       grad, [&](Index c) { return alpha[c] * T[c]; }, stencil, mesh, cells);
+}
+
+void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
+                          const SymmetryFaces& symmetry, const Mesh& mesh,
+                          std::span<const Index> cells) {
+  if (symmetry.is.empty()) return;
+  for (const Index c : cells) {
+    const auto at_plane = [&](Index f) { return symmetry.has(f, mesh); };
+    if (mesh.simplex(c) && std::ranges::any_of(mesh.cell_faces[c], at_plane))
+      grad[c] = slope_at_plane(T, symmetry, mesh, c);
+  }
 }
 
 }  // namespace fsi::solid

@@ -5,6 +5,7 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::solid {
 
@@ -34,6 +35,13 @@ void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
 void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
               std::span<const Index> cells);
+
+/// Sets grad T anew in the listed triangles and tetrahedra at planes of symmetry: by least squares
+/// over the face neighbours and the cell's own image. An extrapolation from the neighbours on one
+/// side answers to the cell's own T four times as strongly.
+void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
+                          const SymmetryFaces& symmetry, const Mesh& mesh,
+                          std::span<const Index> cells);
 
 /// The boundary where the solid touches it.
 struct Contact {
