@@ -50,6 +50,36 @@ TEST(PressureGradient, IsExactForLinearFields) {
     }
 }
 
+// On a plane of symmetry the boundary has the cell's own velocity along it, which is that at the
+// foot of the cell's centre: the face's centre may lie a third of a cell aside.
+TEST(Gradient, IsExactForALinearVelocityAtAPlaneOfSymmetry) {
+  for (const Index depth : {0, 5}) {
+    const Mesh mesh = irregular(depth);
+    const FaceWeights weights(mesh);
+    std::vector<bool> plane;
+    for (const Patch& patch : mesh.patches) plane.push_back(patch.name == "bottom");
+    const GradientStencil stencil(mesh, weights, std::vector<bool>(plane.size(), true), plane);
+    const Tensor L{1, 0, mesh.dim == 3 ? 4.0 : 0.0, 0, -2, 0, 3, 0, mesh.dim == 3 ? 1.0 : 0.0};
+    CellField<Vec3> u(mesh);
+    BoundaryField<Vec3> u_b(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) u[c] = dot(L, mesh.C[c]);
+    for (std::size_t i = 0; i < plane.size(); ++i)
+      for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+        const Vec3 own = u[mesh.owner[f]], S = mesh.Sf[f];
+        u_b[f - mesh.n_internal] = plane[i] ? own - (dot(own, S) / norm2(S)) * S
+                                            : dot(L, mesh.C[mesh.owner[f]] + mesh.d[f]);
+      }
+    CellField<Tensor> of_u(mesh);
+    gradient(of_u, u, u_b, stencil, mesh);
+    Real worst = 0;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const Tensor off = of_u[c] + -1.0 * L;
+      worst = std::max(worst, std::sqrt(trace(dot(off, transpose(off)))));
+    }
+    EXPECT_LE(global_max(worst), 1e-11) << mesh.dim;
+  }
+}
+
 // Whatever the pressure, what one cell loses another gets: its forces add up to that of the walls.
 TEST(PressureGradient, HasNoMeanForceOfItsOwn) {
   for (const Index depth : {0, 5}) {

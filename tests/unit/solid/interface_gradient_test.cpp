@@ -77,6 +77,51 @@ TEST(InterfaceGradient, IsExactForAQuadraticVelocityWithAKink) {
   }
 }
 
+/// A velocity whose image in the plane y = 0 is itself.
+Vec3 symmetric_velocity(const Vec3& x) {
+  return {x.x * x.x + x.y * x.y - x.x * x.z, 2 * x.x * x.y + x.y * x.z, x.y * x.y + 3 * x.x - x.z};
+}
+Tensor symmetric_gradient(const Vec3& x) {
+  return {2 * x.x - x.z, 2 * x.y, -x.x, 2 * x.y, 2 * x.x + x.z, x.y, 3, 2 * x.y, -1};
+}
+
+// At a plane of symmetry the boundary has the cell's own velocity along it, and that is no value of
+// the face's centre: the images count. At an opening nothing does.
+TEST(InterfaceGradient, SeesImagesAtAPlaneOfSymmetry) {
+  for (const Index depth : {0, 6}) {
+    const Mesh mesh = test::read_box({.n = {8, 6, depth}, .simplex = true});
+    CellField<Vec3> u(mesh);
+    CellField<Real> alpha(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) u[c] = symmetric_velocity(mesh.C[c]), alpha[c] = 1;
+    BoundaryField<Vec3> u_b(mesh);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+      const Vec3& own = u[mesh.owner[f]];
+      u_b[f - mesh.n_internal] = own - (dot(own, mesh.Sf[f]) / norm2(mesh.Sf[f])) * mesh.Sf[f];
+    }
+    solid::BoundarySides sides{.given = std::vector<char>(u_b.size(), 0),
+                               .symmetry = {std::vector<char>(u_b.size(), 0)}};
+    const Patch& plane = mesh.patch("bottom");
+    for (Index f = plane.begin; f < plane.end; ++f) sides.symmetry.is[f - mesh.n_internal] = 1;
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      if (mesh.C[c].y < 0.5 && std::abs(mesh.C[c].x - 0.5) < 0.35 &&
+          (mesh.dim == 2 || std::abs(mesh.C[c].z - 0.5) < 0.3))
+        cells.push_back(c);
+    CellField<Tensor> L(mesh);
+    const CellField<Vec3> uncut(mesh);
+    const CellField<Real> none(mesh);
+    const solid::SimplexZone zone(mesh);
+    solid::InterfaceGradient sided(mesh, zone, sides);
+    sided.apply(L, u, u_b, {alpha, uncut, none, none}, cells);
+    sided.set_strain(L, u, u_b, alpha, cells);
+    Real worst = 0;
+    for (const Index c : cells)
+      worst = std::max(
+          worst, difference(sided.strain()[c], in_plane(symmetric_gradient(mesh.C[c]), mesh.dim)));
+    EXPECT_LE(global_max(worst), 1e-10);
+  }
+}
+
 // What strains the outermost cells does not see the fluid, 1e3 here. Of a quadratic velocity one
 // sweep leaves 0.022 and 0.064, two 0.005 and 0.040, four 0.002 and 0.012.
 TEST(InterfaceGradient, StrainsByTheSolidAlone) {
