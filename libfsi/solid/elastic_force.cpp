@@ -14,6 +14,11 @@ Vec3 traction(const SymTensor& tau, const ElasticState& solid, const Mesh& mesh,
   return mirror ? (dot(t, S) / norm2(S)) * S : t;
 }
 
+/// Whether boundary face f is one of an opening.
+bool is_open(const ElasticState& solid, const Mesh& mesh, Index f) {
+  return solid.open != nullptr && (*solid.open)[f - mesh.n_internal] != 0;
+}
+
 /// From the centre of P to where T on boundary face f is taken by its gradient: the face's centre;
 /// on a plane of symmetry of a triangle or tetrahedron not across it, where T . n . n has no slope.
 Vec3 to_face(const ElasticState& solid, const Mesh& mesh, Index f) {
@@ -45,6 +50,7 @@ void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rh
     const Index P = mesh_.owner[f];
     const Vec3 d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
+      if (is_open(solid, mesh_, f)) continue;
       // tau_b = tau_P + grad tau . d
       const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], d);
       force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), solid, mesh_, f);
@@ -75,6 +81,7 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const Real a_f = (*solid.alpha_f)[f];
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
+      if (is_open(solid, mesh_, f)) continue;
       // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
       const SymTensor tau = G_ * dev(T[P] + along(grad[P], to_face(solid, mesh_, f)));
       const Vec3& m = (*solid.normal)[f];

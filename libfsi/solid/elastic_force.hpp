@@ -17,6 +17,7 @@ struct ElasticState {
                                      ///< the solid as well. None: from alpha T of the cells
   const FaceField<Vec3>* normal{};   ///< of the interface there, zero without one; with alpha_f
   const SymmetryFaces* mirror{};     ///< planes of symmetry, which bear no shear
+  const std::vector<char>* open{};   ///< [n_boundary] 1 on openings, which bear no elastic stress
 };
 
 /// Force of the elastic stress, and its counterpart in the balanced face flux.
@@ -33,7 +34,9 @@ class ElasticForce {
   ///             + sum_f g_cf s (alpha_n - alpha_c).
   /// The part that a jump of the pressure bears is differenced as the pressure is, by the weights
   /// g_cf of the stencil. The other is differenced as the viscous flux. Skewness correction
-  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly. Beyond a plane of
+  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly;
+  /// at openings there is none, so that what has left neither pulls nor pushes. A stress continued
+  /// there is work of nothing on what is still inside. Beyond a plane of
   /// symmetry the image of a triangle or tetrahedron is one of its neighbours: an extrapolation
   /// from the three others answers to T_P four times as strongly as the strain does.
   /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f

@@ -194,8 +194,9 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
 
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow) {
-  const solid::ElasticState elastic{body.T(), body.alpha, body.extended() ? &body.alpha_f : nullptr,
-                                    &body.normal_f, &body.mirror};
+  const solid::ElasticState elastic{
+      body.T(),       body.alpha,   body.extended() ? &body.alpha_f : nullptr,
+      &body.normal_f, &body.mirror, &flow.open};
   body.elastic_force.apply(force, rhie_chow_source, elastic, body.weights, flow.pressure, body.band,
                            body.grad);
   if (body.two_viscosities) {
