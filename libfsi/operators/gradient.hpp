@@ -18,8 +18,8 @@ namespace fsi {
 /// extrapolated linearly from inside.
 struct GradientStencil {
   /// has_value[i]: whether the field is given on mesh.patches[i]. at_foot[i], none: false, whether
-  /// the value there is that at the foot of the cell's centre on the face, as on a plane of
-  /// symmetry the cell's own along the plane is, and not that at the face's centre.
+  /// the value there is not that at the face's centre but that at the foot of the cell's. On a
+  /// plane of symmetry the velocity of the cell along the plane is such a value.
   GradientStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& has_value,
                   const std::vector<bool>& at_foot = {});
 

@@ -19,8 +19,9 @@ bool is_open(const ElasticState& solid, const Mesh& mesh, Index f) {
   return solid.open != nullptr && (*solid.open)[f - mesh.n_internal] != 0;
 }
 
-/// From the centre of P to where T on boundary face f is taken by its gradient: the face's centre;
-/// on a plane of symmetry of a triangle or tetrahedron not across it, where T . n . n has no slope.
+/// The way from the centre of P along which T goes on to boundary face f: to the face's centre. On
+/// a plane of symmetry of a triangle or tetrahedron it is the part along the plane, since T . n . n
+/// has no slope across it.
 Vec3 to_face(const ElasticState& solid, const Mesh& mesh, Index f) {
   const Vec3 d = mesh.d[f];
   if (solid.mirror == nullptr || !solid.mirror->has(f, mesh) || !mesh.simplex(mesh.owner[f]))

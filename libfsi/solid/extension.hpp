@@ -44,10 +44,10 @@ class Extension {
   /// Collective. Damps what alternates from known cell to known cell in a time dt,
   ///   T += (1 - exp(-C r dt)) sum w (T_k - T - (g + g_k) / 2 . (x_k - x)) / sum w,
   ///   r = min(speed / h, recovery),  h = V^(1/dim),  C = 0.1,
-  /// over the known vertex neighbours k and their images, g the least squares: fourth differences
-  /// [Jameson81], nothing of a linear T. Works in the cells where `where` is not zero. T: of owned
-  /// known cells; slope: as above; speed, recovery: of a wave of the cells' length, where viscosity
-  /// does not matter and where it rules.
+  /// over the known vertex neighbours k and their images, g the least squares. These are fourth
+  /// differences [Jameson81], nothing of a linear T. Works in the cells where `where` is not zero.
+  /// T: of owned known cells; slope: as above; speed, recovery: of a wave of the cells' length,
+  /// where viscosity does not matter and where it rules.
   void fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope,
                                 const CellField<Real>& where, Real speed, Real recovery, Real dt);
   /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is

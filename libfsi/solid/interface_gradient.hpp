@@ -37,8 +37,8 @@ struct BoundarySides {
 /// non-orthogonal part of the viscous flux passes on to the velocity.
 ///
 /// Here L is that of a quadratic (QuadraticFit) through the values of the vertex neighbours on the
-/// cell's own side of alpha = 1/2, of their images beyond a plane of symmetry and of the cell's
-/// faces on walls. Cells of the solid beside its
+/// cell's own side of alpha = 1/2. Their images beyond a plane of symmetry and the cell's faces on
+/// walls take part. Cells of the solid beside its
 /// surface take the gradients of those farther in as well. That does not tell L where the solid, or
 /// what is around it, is thinner than the stencil. There L stays the library's, which answers to
 /// the stress as that acts on the velocity. One of the few values of one side alone does not, and
