@@ -304,6 +304,12 @@ void put_solids(Solver& solver, const Case& setup) {
   }
 }
 
+bool has_openings(const Conditions& conditions) {
+  return std::ranges::any_of(conditions, [](const auto& item) {
+    return fixes_pressure(item.second) || prescribes_flow(item.second);
+  });
+}
+
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   warn_of_curved_planes(setup.flow.conditions, mesh);
   const PeakFlow peak =
@@ -323,10 +329,18 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   if (!peak.patch.empty())
     tell_of_peak(peak, p, length, velocity);
   else if (velocity == 0)
-    std::printf("the flow decides on Re: column reynolds of flow.csv\n");
+    std::printf("the flow decides on Re: %s\n",
+                has_openings(setup.flow.conditions)
+                    ? "column reynolds of flow.csv"
+                    : "rho U L / mu with U of column mean_velocity in flow.csv and a length L");
   else
     std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
                 length, velocity);
+  constexpr Real slow = 0.1;  // where inertia moves nothing
+  if (velocity != 0 && !setup.solids.empty() && p.rho * velocity * length / p.mu_f < slow)
+    std::printf(
+        "inertia hardly matters at this Re: larger densities, up to Re = 1, give the same "
+        "motion in fewer steps (doc/howto/vessel.md)\n");
   if (const Vec3& v = setup.flow.frame; norm(v) > 0)
     std::printf("the mesh moves at (%g, %g, %g): all that is written stands in its frame\n", v.x,
                 v.y, v.z);

@@ -147,10 +147,10 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   SolidSetup solid;
   solid.solid.name = name;
   solid.options = of;
-  solid.shape_name = options.choice(
-      of + "shape", "none", shapes_known,
-      "undeformed shape; none: no solid. Of several solids each has all of these options under "
-      "a name of its own: -solids_NAME_shape ...");
+  solid.shape_name = options.choice(of + "shape", "none", shapes_known,
+                                    "undeformed shape; none: no solid, in two dimensions sphere is "
+                                    "a disc. Of several solids each has all of these options under "
+                                    "a name of its own: -solids_NAME_shape ...");
   const bool none = solid.shape_name == "none";
   Options aside(options);
   Options& read = none && !options.help() ? aside : options;

@@ -241,6 +241,8 @@ def _finish(ax, panel, units, dim, column=""):
     words = units.label(panel.title, panel.unit, dim)
     ax.set_title(f"{words}: {column}" if column else words, loc="left", y=1.0)
     ax.set_xlabel(units.label("t", "time"))
+    ax.locator_params(axis="x", nbins=6)
+    ax.ticklabel_format(axis="x", useOffset=False, scilimits=(-3, 4))
     if not panel.logarithmic:
         ax.ticklabel_format(axis="y", useOffset=False, scilimits=(-3, 4))
         ax.yaxis.set_offset_position("right")
