@@ -94,6 +94,12 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
   return result;
 }
 
+bool has_openings(const Conditions& conditions) {
+  return std::ranges::any_of(conditions, [](const auto& item) {
+    return fixes_pressure(item.second) || prescribes_flow(item.second);
+  });
+}
+
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                            const std::vector<Condition>& conditions, Real t, const Mesh& mesh) {
   for (std::size_t i = 0; i < conditions.size(); ++i) {

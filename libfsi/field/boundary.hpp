@@ -73,6 +73,8 @@ Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end);
 bool fixes_velocity(const Condition& condition);
 /// Whether it prescribes a flow through the patch: FixedVelocity or FlowRate.
 bool prescribes_flow(const Condition& condition);
+/// Whether fluid passes one of the patches.
+bool has_openings(const Conditions& conditions);
 /// Whether the condition gives the pressure: an Opening.
 bool fixes_pressure(const Condition& condition);
 

@@ -304,12 +304,6 @@ void put_solids(Solver& solver, const Case& setup) {
   }
 }
 
-bool has_openings(const Conditions& conditions) {
-  return std::ranges::any_of(conditions, [](const auto& item) {
-    return fixes_pressure(item.second) || prescribes_flow(item.second);
-  });
-}
-
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   warn_of_curved_planes(setup.flow.conditions, mesh);
   const PeakFlow peak =
