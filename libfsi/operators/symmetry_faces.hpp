@@ -40,7 +40,7 @@ inline SymTensor image(const SymTensor& T, const Vec3& n) {
 /// each plane of symmetry that c has a face on. n is the normal of the plane, r goes from the
 /// centre of c to that of the image of k. A cell counts as one at the plane when its centre is not
 /// twice as far from it as that of c. Where c is a triangle or tetrahedron it may be up to 3.5
-/// times as far: those that stand on the plane with a corner are three times as far as c.
+/// times as far: those that stand on the plane with a corner are up to three times as far as c.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
   const Real reach = mesh.simplex(c) ? 3.5 : 2;

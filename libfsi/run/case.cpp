@@ -95,15 +95,6 @@ void warn_of_curved_planes(const Conditions& conditions, const Mesh& mesh) {
 }
 
 /// Rank 0. Sets the length and the velocity that Ca and G* of the solids are to be of.
-void tell_of_peak(const PeakFlow& peak, const Physics& p, Real& length, Real& velocity) {
-  std::printf(
-      "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
-      "diameter %.4g; U = %.4g is the largest velocity there (of a parabola: in a round tube)\n",
-      peak.patch.c_str(), peak.t, p.rho * peak.mean * peak.length / p.mu_f, peak.mean, peak.length,
-      peak.top);
-  length = peak.length, velocity = peak.top;
-}
-
 FlowSetup read_flow(Options& options) {
   FlowSetup flow;
   flow.convection = flow::convection_of(options.choice(
@@ -304,6 +295,18 @@ void put_solids(Solver& solver, const Case& setup) {
   }
 }
 
+void tell_of_inertia(const Case& setup, Real length, Real velocity) {
+  constexpr Real slow = 0.1;  // where it moves nothing
+  const Physics& p = setup.physics;
+  const auto weighs = [&](const auto& s) { return norm(p.gravity + s.solid.acceleration) > 0; };
+  if (velocity == 0 || p.rho * velocity * length / p.mu_f >= slow || setup.solids.empty() ||
+      std::ranges::any_of(setup.solids, weighs))
+    return;
+  std::printf(
+      "inertia hardly matters at this Re: larger densities, up to Re = 1, give the same motion in "
+      "fewer steps (doc/howto/vessel.md)\n");
+}
+
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   warn_of_curved_planes(setup.flow.conditions, mesh);
   const PeakFlow peak =
@@ -320,21 +323,18 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
   tell_of_loads(setup.flow.conditions);
-  if (!peak.patch.empty())
-    tell_of_peak(peak, p, length, velocity);
-  else if (velocity == 0)
+  if (!peak.patch.empty()) {
+    std::printf("%s\n", text_of(peak, p.mu_f / p.rho).c_str());
+    length = peak.length, velocity = peak.top;
+  } else if (velocity == 0)
     std::printf("the flow decides on Re: %s\n",
                 has_openings(setup.flow.conditions)
                     ? "column reynolds of flow.csv"
-                    : "rho U L / mu with U of column mean_velocity in flow.csv and a length L");
+                    : "rho U L / mu, U = mean_velocity of flow.csv");
   else
     std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
                 length, velocity);
-  constexpr Real slow = 0.1;  // where inertia moves nothing
-  if (velocity != 0 && !setup.solids.empty() && p.rho * velocity * length / p.mu_f < slow)
-    std::printf(
-        "inertia hardly matters at this Re: larger densities, up to Re = 1, give the same "
-        "motion in fewer steps (doc/howto/vessel.md)\n");
+  tell_of_inertia(setup, length, velocity);
   if (const Vec3& v = setup.flow.frame; norm(v) > 0)
     std::printf("the mesh moves at (%g, %g, %g): all that is written stands in its frame\n", v.x,
                 v.y, v.z);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/gap.hpp"
 
 namespace fsi {
@@ -60,6 +61,13 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
     }
   }
   return peak;
+}
+
+std::string text_of(const PeakFlow& peak, Real nu) {
+  return print(
+      "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
+      "diameter %.4g; U = %.4g is the largest velocity there (of a parabola: in a round tube)",
+      peak.patch.c_str(), peak.t, peak.mean * peak.length / nu, peak.mean, peak.length, peak.top);
 }
 
 Real curvature(const Patch& patch, const Mesh& mesh) {

@@ -21,6 +21,9 @@ struct PeakFlow {
 /// are looked at 4000 times, velocities 100 times.
 PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
 
+/// That flow in a sentence, with its Reynolds number. nu: kinematic viscosity.
+std::string text_of(const PeakFlow& peak, Real nu);
+
 /// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that
 /// share a point; angles of more than 30 degrees are edges between planes and do not count.
 Real curvature(const Patch& patch, const Mesh& mesh);

@@ -23,18 +23,26 @@ VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
 
 const Tensor& VelocityTable::slope(std::size_t k) const {
   if (slope_[k]) return *slope_[k];
-  constexpr std::size_t around = 8;
   const Row& here = rows_[k];
   std::vector<Row> near;
   for (const Row& row : rows_)
     if (row.x != here.x) near.push_back(row);
-  const std::size_t n = std::min(around, near.size());
-  std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(n), {},
-                            [&](const Row& row) { return norm2(row.x - here.x); });
-  SlopeFit fit;
-  for (std::size_t i = 0; i < n; ++i) fit.add(near[i].x - here.x, near[i].u - here.u);
-  constexpr Real told = 1e-3;  // of the spread in the widest direction
-  return slope_[k].emplace(fit.slope(told));
+  std::ranges::sort(near, {}, [&](const Row& row) { return norm2(row.x - here.x); });
+  const auto fit = [&](std::size_t n) {
+    SlopeFit of_nearest;
+    for (std::size_t i = 0; i < n; ++i) of_nearest.add(near[i].x - here.x, near[i].u - here.u);
+    return of_nearest;
+  };
+  constexpr Real told = 0.02;  // of the spread in the widest direction
+  const auto directions = [](const SlopeFit& of_nearest) {
+    int count = 0;
+    for_told_directions(of_nearest.M, told, [&](Real, const Vec3&) { ++count; });
+    return count;
+  };
+  const int all = directions(fit(near.size()));
+  std::size_t n = std::min<std::size_t>(8, near.size());
+  while (n < near.size() && directions(fit(n)) < all) n = std::min(2 * n, near.size());
+  return slope_[k].emplace(fit(n).slope(told));
 }
 
 std::size_t VelocityTable::nearest(const Vec3& x) const {
@@ -44,17 +52,26 @@ std::size_t VelocityTable::nearest(const Vec3& x) const {
 
 void VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
   if (extent_ == 0) return;
-  Real first = std::numeric_limits<Real>::infinity(), last = 0, farthest = 0;
+  constexpr Real none = std::numeric_limits<Real>::infinity();
+  Real first = none, last = 0, farthest = 0;
+  Vec3 low{none, none, none}, high = -1.0 * low;
   for (Index f = patch.begin; f < patch.end; ++f) {
     const std::size_t k = nearest(mesh.Cf[f]);
     first = std::min(first, static_cast<Real>(k)), last = std::max(last, static_cast<Real>(k));
     farthest = std::max(farthest, norm(mesh.Cf[f] - rows_[k].x));
+    for (int i = 0; i < 3; ++i)
+      low[i] = std::min(low[i], mesh.Cf[f][i]), high[i] = std::max(high[i], mesh.Cf[f][i]);
   }
-  const bool one = global_min(first) == global_max(last) && global_sum(patch.end - patch.begin) > 1;
-  const bool far = global_max(farthest) > extent_ / 2;
+  Vec3 across;
+  for (int i = 0; i < 3; ++i) across[i] = global_max(high[i]) - global_min(low[i]);
+  // A profile along a line, and one table for inlets far apart, are in order.
+  constexpr Real beyond = 10, wider = 100;
+  const bool far = global_max(farthest) > beyond * extent_;
+  const bool one =
+      global_min(first) == global_max(last) && norm(across) > 0 && extent_ > wider * norm(across);
   const std::string its = name_ + ": its places, the first of them " + text_of(rows_[0].x) + ", ";
   require(!far, its + "do not reach patch \"" + patch.name + "\"; are both in the same units?");
-  require(!one, its + "are wider than patch \"" + patch.name +
+  require(!one, its + "are far wider than patch \"" + patch.name +
                     "\": all of its faces are nearest to one of them; are both in the same units?");
 }
 

@@ -15,9 +15,9 @@ namespace fsi {
 ///
 ///   u(x) = u_k + L_k . (x - x_k),
 ///
-/// L_k by least squares over the eight places nearest to x_k. In directions in which these do not
-/// spread, across a plane or a line of places, L_k is zero. Exact for a linear velocity, else of
-/// second order in the distance of the places.
+/// L_k by least squares over the eight places nearest to x_k, or as many more as it takes to spread
+/// in all directions in which the table does. In the others, across a plane or a line of places,
+/// L_k is zero. Exact for a linear velocity, else of second order in the distance of the places.
 class VelocityTable {
  public:
   /// A place and the velocity there.
@@ -29,9 +29,10 @@ class VelocityTable {
   /// name: what errors call the table. Errors: Error{input} where it has no row.
   VelocityTable(std::string name, std::vector<Row> rows);
 
-  /// Collective. Errors: Error{input} where the table is that of another patch or in other units:
-  /// a face lies farther from all places than half of their extent, or all faces are nearest to the
-  /// same place. A table of one place holds everywhere.
+  /// Collective. Errors: Error{input} where the table is that of another patch or in other units.
+  /// So it is where a face lies farther from all places than ten times their extent. So it is, too,
+  /// where all faces are nearest to the same place of a table a hundred times as wide as the patch.
+  /// A table of one place holds everywhere.
   void check(const Mesh& mesh, const Patch& patch) const;
 
   /// u(x).

@@ -34,11 +34,10 @@ class ElasticForce {
   ///             + sum_f g_cf s (alpha_n - alpha_c).
   /// The part that a jump of the pressure bears is differenced as the pressure is, by the weights
   /// g_cf of the stencil. The other is differenced as the viscous flux. Skewness correction
-  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly;
-  /// at openings there is none, so that what has left neither pulls nor pushes. A stress continued
-  /// there is work of nothing on what is still inside. Beyond a plane of
-  /// symmetry the image of a triangle or tetrahedron is one of its neighbours: an extrapolation
-  /// from the three others answers to T_P four times as strongly as the strain does.
+  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly. At openings there is
+  /// none, so that what has left neither pulls nor pushes; a stress continued there would work on
+  /// what is still inside. Beyond a plane of symmetry the image of a triangle or tetrahedron is one
+  /// of its neighbours (`set_slopes_at_planes`).
   /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f
   /// that of the cells' alpha times T, and that of the jump of the pressure. It vanishes for a
   /// linear stress. Both are added to what is there. force: owned and halo after. grad: scratch

@@ -37,8 +37,8 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               std::span<const Index> cells);
 
 /// Sets grad T anew in the listed triangles and tetrahedra at planes of symmetry: by least squares
-/// over the face neighbours and the cell's own image. An extrapolation from the neighbours on one
-/// side answers to the cell's own T four times as strongly.
+/// over the face neighbours and the cell's own image. An extrapolation to the
+/// plane from the others alone answers to the cell's own T several times as strongly.
 void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
                           const SymmetryFaces& symmetry, const Mesh& mesh,
                           std::span<const Index> cells);

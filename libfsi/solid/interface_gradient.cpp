@@ -17,7 +17,7 @@ struct OfOneSide {
   Vec3 operator[](Index c) const { return u[c] - kink[c]; }
 };
 
-/// The velocity that a wall gives at a face; null where none does.
+/// The velocity that a wall or an inlet gives at a face; null where none does.
 struct OfWalls {
   const BoundaryField<Vec3>& u_b;
   const BoundarySides& sides;

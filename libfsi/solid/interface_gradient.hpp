@@ -22,10 +22,11 @@ struct Cuts {
 };
 
 /// What the velocity is at the faces of the boundary. Where neither holds, at an opening, it goes
-/// on as inside: the boundary's value there is the cell's own and tells no gradient.
+/// on as inside: the boundary's value there is made of the cell's own and tells no gradient.
 struct BoundarySides {
-  std::vector<char> given{};  ///< [n_boundary] 1 where a wall gives it; empty: everywhere
-  SymmetryFaces symmetry{};   ///< beyond these lie the images of the cells
+  std::vector<char>
+      given{};  ///< [n_boundary] 1 where a wall or an inlet gives it; empty: everywhere
+  SymmetryFaces symmetry{};  ///< beyond these lie the images of the cells
 };
 
 /// Sets L in the listed cells of the zone: those of the solid (alpha >= 1/2) that know their

@@ -32,6 +32,17 @@ TEST(VelocityTable, IsExactForALinearVelocity) {
   EXPECT_LT(norm(table({2.1, 0.31, 0.62}) - u({2, 0.31, 0.62})), 1e-12);
 }
 
+// The eight nearest of such a table stand in one row.
+TEST(VelocityTable, TakesRowsFarApart) {
+  std::vector<VelocityTable::Row> rows;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 40; ++j)
+      rows.push_back({.x = {0, i / 4.0, j / 39.0}, .u = {1 + 2 * i / 4.0, 0, 0}});
+  const VelocityTable table("rows.csv", rows);
+  for (const Vec3& x : {Vec3{0, 0.4, 0.5}, Vec3{0, 0.1, 0.01}, Vec3{0, 0.9, 1}})
+    EXPECT_LT(norm(table(x) - Vec3{1 + 2 * x.y, 0, 0}), 1e-12);
+}
+
 TEST(VelocityTable, IsOfSecondOrder) {
   const auto u = [](const Vec3& x) { return Vec3{std::sin(3 * x.y) * std::cos(2 * x.z), 0, 0}; };
   const auto error = [&](int n) {
@@ -49,14 +60,17 @@ TEST(VelocityTable, IsOfSecondOrder) {
 
 TEST(VelocityTable, TellsPlacesOfElsewhere) {
   const VelocityTable in_millimetres = table_of(6, [](const Vec3&) { return Vec3{1, 0, 0}; });
-  for (const Real size : {1e-3, 0.1, 10.0, 1e3}) {
-    const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2 * size, size, size}});
-    EXPECT_THROW(in_millimetres.check(mesh, mesh.patch("right")), Error) << size;
-  }
-  const Mesh narrow = test::read_box({.n = {4, 4, 4}, .length = {2, 1e-3, 1e-3}});
-  EXPECT_THROW(in_millimetres.check(narrow, narrow.patch("right")), Error);
-  const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2, 1, 1}});
-  in_millimetres.check(mesh, mesh.patch("right"));
+  const auto check = [](const VelocityTable& table, const Vec3& length) {
+    const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = length});
+    table.check(mesh, mesh.patch("right"));
+  };
+  EXPECT_THROW(check(in_millimetres, {2e3, 1e3, 1e3}), Error);
+  EXPECT_THROW(check(in_millimetres, {2, 1e-3, 1e-3}), Error);
+  check(in_millimetres, {2, 1, 1});
+  std::vector<VelocityTable::Row> line;
+  for (int i = 0; i < 9; ++i) line.push_back({.x = {2, 0.1 * (i + 1), 0.5}, .u = {1, 0, 0}});
+  check({"line.csv", line}, {2, 1, 1});
+  check({"two.csv", {line[3], line[5]}}, {2, 1, 1});
   EXPECT_THROW(VelocityTable("empty.csv", {}), Error);
   const VelocityTable one("one.csv", {{.x = {}, .u = {1, 2, 3}}});
   EXPECT_EQ(one({5, 6, 7}), (Vec3{1, 2, 3}));
