@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi::solid {
@@ -50,22 +49,14 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
 }
 
 SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) const {
-  SymTensor M;
-  SymGradient R;
-  const auto add = [&](const SymTensor& rise, const Vec3& r) {
-    const Real w = 1 / norm2(r);
-    M += w * square(r);
-    R += w * outer(rise, r);
-  };
+  TensorFit fit;
   for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (rings_.within(0, k)) add(T[k] - T[c], r);
+    if (rings_.within(0, k)) fit.add(T[k] - T[c], r);
   });
   for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-    if (rings_.within(0, k)) add(image(T[k], n) - T[c], r);
+    if (rings_.within(0, k)) fit.add(image(T[k], n) - T[c], r);
   });
-  if (M == SymTensor{}) return {};
-  const SymTensor K = raised_inverse(M, mesh_.dim);
-  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.xy, K.yy, K.yz}), along(R, {K.xz, K.yz, K.zz})};
+  return fit.slope(mesh_.dim);
 }
 
 SymGradient Extension::limited_slope(const CellField<SymGradient>& slope, Index c) const {

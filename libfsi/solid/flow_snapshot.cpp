@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi::solid {
@@ -27,22 +26,15 @@ void gradient_of(CellField<SymGradient>& grad, const Value& value, const Gradien
 /// its own image.
 SymGradient slope_at_plane(const CellField<SymTensor>& T, const SymmetryFaces& symmetry,
                            const Mesh& mesh, Index c) {
-  SymTensor M;
-  SymGradient R;
-  const auto add = [&](const SymTensor& rise, const Vec3& r) {
-    const Real w = 1 / norm2(r);
-    M += w * square(r);
-    R += w * outer(rise, r);
-  };
+  TensorFit fit;
   for (const Index f : mesh.cell_faces[c]) {
     const Index k = beyond(mesh, f, c);
-    if (k >= 0) add(T[k] - T[c], mesh.owner[f] == c ? mesh.d[f] : -mesh.d[f]);
+    if (k >= 0) fit.add(T[k] - T[c], mesh.owner[f] == c ? mesh.d[f] : -mesh.d[f]);
     if (!symmetry.has(f, mesh)) continue;
     const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-    add(image(T[c], n) - T[c], (2 * dot(mesh.d[f], n)) * n);
+    fit.add(image(T[c], n) - T[c], (2 * dot(mesh.d[f], n)) * n);
   }
-  const SymTensor K = raised_inverse(M, mesh.dim);
-  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.xy, K.yy, K.yz}), along(R, {K.xz, K.yz, K.zz})};
+  return fit.slope(mesh.dim);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/operators/least_squares.hpp"
 #include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::solid {
@@ -26,6 +27,27 @@ inline SymGradient outer(const SymTensor& T, const Vec3& g) { return {g.x * T, g
 inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;
 }
+
+/// The slope of T by least squares over places r at which it is more by `rise`, w = 1 / |r|^2.
+struct TensorFit {
+  /// One place.
+  void add(const SymTensor& rise, const Vec3& r) {
+    const Real w = 1 / norm2(r);
+    M += w * square(r);
+    R += w * outer(rise, r);
+  }
+  /// The slope; none of no places. Along directions that these do not tell it tends to zero
+  /// (`raised_inverse`).
+  SymGradient slope(int dim) const {
+    if (M == SymTensor{}) return {};
+    const SymTensor K = raised_inverse(M, dim);
+    return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.xy, K.yy, K.yz}),
+            along(R, {K.xz, K.yz, K.zz})};
+  }
+
+  SymTensor M;    ///< sum of w r r
+  SymGradient R;  ///< sum of w rise r
+};
 
 /// Gradient of T on the listed owned cells. stencil: without given boundary values, so that linear
 /// fields are exact beside boundaries as well.
