@@ -9,12 +9,12 @@
 namespace fsi {
 namespace {
 
-struct Error {
+struct TaylorError {
   Real deformation, angle;
 };
 
 /// Half-axes 0.27 and 0.18 (0.2 along z) at 35 degrees, cells of size 1 / n.
-Error measured(const Mesh& mesh, Real z) {
+TaylorError measured(const Mesh& mesh, Real z) {
   constexpr Real angle = 35;
   const shapes::Shape shape = shapes::translate(
       shapes::rotate(shapes::ellipsoid({0.27, 0.18, 0.2}), {0, 0, 1}, angle * shapes::pi / 180),
@@ -27,15 +27,15 @@ Error measured(const Mesh& mesh, Real z) {
 }
 
 TEST(Taylor, EllipseToSecondOrder) {
-  const Error coarse = measured(test::box_mesh({.n = {24, 24, 0}}), 0);
-  const Error fine = measured(test::box_mesh({.n = {96, 96, 0}}), 0);
+  const TaylorError coarse = measured(test::box_mesh({.n = {24, 24, 0}}), 0);
+  const TaylorError fine = measured(test::box_mesh({.n = {96, 96, 0}}), 0);
   EXPECT_LE(coarse.deformation, 1e-2);
   EXPECT_LE(coarse.angle, 0.1);
   EXPECT_LE(fine.deformation, coarse.deformation / 9);
 }
 
 TEST(Taylor, Ellipsoid) {
-  const Error e = measured(test::box_mesh({.n = {32, 32, 32}}), 0.488);
+  const TaylorError e = measured(test::box_mesh({.n = {32, 32, 32}}), 0.488);
   EXPECT_LE(e.deformation, 5e-3);
   EXPECT_LE(e.angle, 0.1);
 }
