@@ -63,7 +63,7 @@ void flatten(RawMesh& raw) {
           raw.file +
               " holds no volume elements, and its surface elements do not lie in one plane "
               "z = const: z goes from " +
-              std::to_string(low.z) + " to " + std::to_string(high.z));
+              print("%.6g to %.6g", low.z, high.z));
   for (Vec3& x : raw.points) x.z = 0;
 }
 

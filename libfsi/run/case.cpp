@@ -209,11 +209,6 @@ Real solid_share(const Mesh& mesh, const std::vector<SolidSetup>& solids) {
   return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
 }
 
-/// The solid's shape. A plane cuts it through its centre, whatever z that has.
-shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s) {
-  return mesh.dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
-}
-
 /// Whether an option tells of the solid's shape and place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
@@ -278,21 +273,6 @@ std::string differences(const std::string& before, const std::string& now) {
   require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
                                   undeformed + "; give what was given there");
   return text.empty() ? "" : "goes on with other values than those of the checkpoint: " + text;
-}
-
-void put_solids(Solver& solver, const Case& setup) {
-  for (const SolidSetup& s : setup.solids) {
-    Solid solid = s.solid;
-    solid.shape = shape_in(solver.mesh(), s);
-    solver.put_solid(solid);
-    const Body& body = solver.bodies().back();
-    if (rank() != 0) continue;
-    if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
-      std::fprintf(stderr,
-                   "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "
-                   "triangles and tetrahedra; take log_conformation\n",
-                   s.shape_name.c_str());
-  }
 }
 
 void tell_of_inertia(const Case& setup, Real length, Real velocity) {

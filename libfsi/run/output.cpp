@@ -218,6 +218,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   energy_.add(solver_, dt);
   if (const std::string wrong = watch_.energy(energy_.part_made(), solver_); !wrong.empty())
     solver_.report().failure = wrong;
+  watch_.taken_back(solver_.report(), s.step - first_step_, asked);
   watch_.leaving(solver_);
   write_rows(limit, dt);
   if (field_.due(s.t)) write_fields();

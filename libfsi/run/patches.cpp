@@ -14,6 +14,7 @@
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/table_file.hpp"
 #include "libfsi/run/velocity_table.hpp"
 
@@ -277,7 +278,7 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
     const flow::CentreLine line(mesh, path[0], path[1]);
     require(s > 0 && s < line.length(), "option -" + of + "arc_length: the centre line from " +
                                             path[0] + " to " + path[1] + " is " +
-                                            std::to_string(line.length()) + " long");
+                                            print("%.4g long", line.length()));
     const auto [at, along] = line.at(s);
     const shapes::Shape aligned = shapes::align(solid.about_origin, along);
     const Real turn = solid.angle * std::numbers::pi / 180;

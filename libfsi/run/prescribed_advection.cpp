@@ -7,6 +7,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/core/signals.hpp"
 #include "libfsi/io/manifest.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/records.hpp"
 #include "libfsi/vof/fill.hpp"
 
@@ -27,7 +28,7 @@ PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
   const vof::Filled filled = vof::fill(alpha_, mesh, shape);
   require(filled.volume > 0, "the solid is empty: its shape lies outside the mesh");
   require(filled.clearance > 0, "the solid sticks out of the mesh by " +
-                                    std::to_string(-filled.clearance) +
+                                    print("%.4g", -filled.clearance) +
                                     ": move it or make it smaller");
   start_.assign(alpha_);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = motion_.u(mesh.C[c]);

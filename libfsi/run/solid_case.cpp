@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <numbers>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/run/case.hpp"
 #include "libfsi/solid/law/laws.hpp"
 
@@ -17,18 +19,32 @@ Real length(Options& options, const std::string& name, Real fallback, const std:
   return options.real(name, fallback, {.help = help, .unit = "length", .positive = true});
 }
 
+/// Each size with the shapes that take it.
+constexpr std::array<std::array<const char*, 2>, 5> sizes{
+    {{"major_radius", "torus"},
+     {"minor_radius", "torus"},
+     {"semi_axes", "ellipsoid"},
+     {"radius", "sphere, disk, cylinder, capsule"},
+     {"height", "disk, cylinder, capsule"}}};
+
 /// Errors: Error{input} where a size is given that the shape does not take.
 void refuse_sizes_of_others(const Options& options, const std::string& of,
                             const std::string& name) {
-  constexpr std::array<std::array<const char*, 2>, 5> sizes{
-      {{"major_radius", "torus"},
-       {"minor_radius", "torus"},
-       {"semi_axes", "ellipsoid"},
-       {"radius", "sphere, disk, cylinder, capsule"},
-       {"height", "disk, cylinder, capsule"}}};
   for (const auto& [size, shapes] : sizes)
     require(std::string(shapes).find(name) != std::string::npos || !options.given(of + size),
             "option -" + of + size + " is for " + shapes + ", but -" + of + "shape is " + name);
+}
+
+/// The sizes of a shape that no option gives, each with its value.
+std::string sizes_by_default(const Options& options, const std::string& of,
+                             const std::string& name) {
+  std::string list;
+  for (const auto& [key, value] : options.values())
+    for (const auto& [size, shapes] : sizes)
+      if (key == of + size && !options.given(key) &&
+          std::string(shapes).find(name) != std::string::npos)
+        list.append(list.empty() ? "-" : ", -").append(key).append(" ").append(value);
+  return list;
 }
 
 /// The shape about the origin, its axis along x. With -help and for "none" every shape's options
@@ -161,6 +177,7 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
       "the run keeps a map to the undeformed solid and holds shape and strain to it; not with "
       "left_cauchy_green");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
+  solid.by_default = sizes_by_default(read, of, solid.shape_name);
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));
 }
@@ -191,6 +208,30 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
     add_solid(solids, options, "solids_" + name + "_", name, physics);
   if (!options.help()) check_shapes(options, names);
   return solids;
+}
+
+shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s) {
+  return mesh.dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
+}
+
+void put_solids(Solver& solver, const Case& setup) {
+  for (const SolidSetup& s : setup.solids) {
+    Solid solid = s.solid;
+    solid.shape = shape_in(solver.mesh(), s);
+    try {
+      solver.put_solid(solid);
+    } catch (const Error& error) {
+      if (s.by_default.empty() || error.kind() != ErrorKind::input) throw;
+      throw Error(error.kind(), std::string(error.what()) + "; by default it has " + s.by_default);
+    }
+    const Body& body = solver.bodies().back();
+    if (rank() != 0) continue;
+    if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
+      std::fprintf(stderr,
+                   "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "
+                   "triangles and tetrahedra; take log_conformation\n",
+                   s.shape_name.c_str());
+  }
 }
 
 std::vector<std::string> solids_without_shape(const Options& options) {

@@ -87,6 +87,22 @@ void Watch::reynolds(Real number) {
                        number, turbulent));
 }
 
+void Watch::taken_back(const StepReport& report, std::int64_t steps, const Limit& asked) {
+  constexpr std::int64_t few = 20, part = 10;  // one in ten
+  std::int64_t count = 0;
+  for (const auto& [reason, number] : report.rejections) count += number;
+  if (told_of_steps_ || count < few || count * part < steps) return;
+  told_of_steps_ = true;
+  const auto of_reason = [](const auto& entry) { return entry.second; };
+  const auto most = std::ranges::max_element(report.rejections, {}, of_reason);
+  std::string text = print("%lld of the first %lld steps failed and were taken again, shorter: ",
+                           static_cast<long long>(count), static_cast<long long>(steps)) +
+                     most->first;
+  if (asked.name == "fixed")
+    text += print("; -time_step %.4g is too long, a shorter one, or none, costs less", asked.dt);
+  say("notice", text);
+}
+
 void Watch::leaving(const Solver& solver) {
   const Real t = solver.state().t;
   for (std::size_t i = 0; i < said_.size(); ++i) {

@@ -24,6 +24,9 @@ class Watch {
   std::string energy(Real made, const Solver& solver);
   /// A warning where the flow through the openings is past what stays laminar in a vessel.
   void reynolds(Real number);
+  /// A notice when many of the `steps` of this run were taken back, with the reason of most of them
+  /// and, where a step was given, the advice to give a shorter one.
+  void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
   /// A warning when a solid is strained past what the mesh resolves, and when the energy of its
@@ -37,7 +40,7 @@ class Watch {
     int pieces = -1;  // at first
   };
   std::vector<Said> said_;  // of the bodies
-  bool told_of_energy_ = false, told_of_turbulence_ = false;
+  bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false;
 };
 
 }  // namespace fsi

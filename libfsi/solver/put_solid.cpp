@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -17,7 +18,7 @@ void require_place(const Body& body, const std::deque<Body>& others, const Mesh&
           which + " is empty: its shape lies outside the mesh or is smaller than a cell");
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
   require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
-                                                 std::to_string(-body.filled.clearance) +
+                                                 print("%.4g", -body.filled.clearance) +
                                                  ": move it or make it smaller");
   for (const Body& other : others) {
     if (&other == &body) continue;

@@ -44,6 +44,25 @@ TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
   }
 }
 
+TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
+  Watch watch(0);
+  const auto said = [&](std::int64_t few, std::int64_t many, std::int64_t steps) {
+    StepReport report;
+    report.rejections = {{"one reason", few}, {"another", many}};
+    testing::internal::CaptureStderr();
+    watch.taken_back(report, steps, {.dt = 0.25, .name = "fixed"});
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(2, 17, 30), "") << "too few";
+  EXPECT_EQ(said(2, 18, 300), "") << "not one in ten";
+  const std::string notice = said(2, 38, 300);
+  if (rank() == 0) {
+    EXPECT_NE(notice.find("40 of the first 300 steps"), std::string::npos) << notice;
+    EXPECT_NE(notice.find("another; -time_step 0.25 is too long"), std::string::npos) << notice;
+  }
+  EXPECT_EQ(said(2, 100, 310), "");
+}
+
 TEST(Watch, AFlowPastTheLaminarIsToldOnce) {
   const auto said = [](Watch& watch, Real number) {
     testing::internal::CaptureStderr();
