@@ -51,6 +51,24 @@ std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u, const O
 
 }  // namespace
 
+InterfaceGradient::InterfaceGradient(const Mesh& mesh, const SimplexZone& zone, BoundarySides sides)
+    : mesh_(mesh),
+      zone_(zone),
+      sides_(std::move(sides)),
+      deep_(mesh),
+      strain_(mesh),
+      kink_in_(mesh),
+      kink_out_(mesh) {
+  CellField<Real> at_wall(mesh);
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    if (sides_.given.empty() || sides_.given[f - mesh.n_internal] != 0) at_wall[mesh.owner[f]] = 1;
+  mesh.halo.update(at_wall);
+  const auto touches = [&](Index c) { return at_wall[c] > 0; };
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    near_wall_.push_back(touches(c) || std::ranges::any_of(mesh.cell_neighbours[c], touches) ? 1
+                                                                                             : 0);
+}
+
 void InterfaceGradient::apply(CellField<Tensor>& L, const CellField<Vec3>& u,
                               const BoundaryField<Vec3>& u_b, const Cuts& cuts,
                               std::span<const Index> cells) {
@@ -136,7 +154,7 @@ void InterfaceGradient::set_strain(const CellField<Tensor>& L, const CellField<V
   for (const Index c : cells) {
     if (!zone_.near(c) || !known(c)) continue;
     strain_[c] = L[c];
-    if (!deep(c)) beside_.push_back(c);
+    if (!deep(c) && near_wall_[c] == 0) beside_.push_back(c);
   }
   mesh_.halo.update(strain_);
   constexpr int sweeps = 4;

@@ -54,14 +54,7 @@ struct BoundarySides {
 class InterfaceGradient {
  public:
   /// mesh and zone must outlive it.
-  InterfaceGradient(const Mesh& mesh, const SimplexZone& zone, BoundarySides sides = {})
-      : mesh_(mesh),
-        zone_(zone),
-        sides_(std::move(sides)),
-        deep_(mesh),
-        strain_(mesh),
-        kink_in_(mesh),
-        kink_out_(mesh) {}
+  InterfaceGradient(const Mesh& mesh, const SimplexZone& zone, BoundarySides sides = {});
 
   /// Collective. cells: owned, as above. L on entry: the library's gradient; L, u: owned and halo.
   void apply(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
@@ -69,18 +62,23 @@ class InterfaceGradient {
 
   /// Collective, after `apply` with the same L, u, u_b, alpha and cells, all of the solid's among
   /// them. Sets `strain` in the solid's cells. It is L in those whose vertex neighbours are all of
-  /// the solid and tell the fit. In the others it is, by the pairs of cells of the solid,
+  /// the solid and tell the fit, and in those at a wall or beside a cell at one. In the others it
+  /// is, by the pairs of cells of the solid,
   ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2,
   /// and by u_b as where L changes no more (`one_sided_gradient`). All are found at once in a few
   /// sweeps, of which the first takes L_c for L_k where k is such a cell too. This is exact for
   /// linear u. What one sweep leaves of a quadratic, the next ones take down. A quadratic fit from
-  /// one side answers to the errors of few values.
+  /// one side answers to the errors of few values. Where L alternates from cell to cell each sweep
+  /// adds to it. In a solid that is wedged between walls the strain then takes up more than the
+  /// force gives, and grows at a third of G / mu.
   void set_strain(const CellField<Tensor>& L, const CellField<Vec3>& u,
                   const BoundaryField<Vec3>& u_b, const CellField<Real>& alpha,
                   std::span<const Index> cells);
   /// What strains the solid's cells near the zone, owned and halo; elsewhere what an earlier call
   /// left.
   const CellField<Tensor>& strain() const { return strain_; }
+  /// Whether owned cell c is at a boundary whose velocity is given, or beside a cell at one.
+  bool near_wall(Index c) const { return near_wall_[c] != 0; }
   /// The cells whose L and strain are those of here.
   const SimplexZone& zone() const { return zone_; }
 
@@ -93,7 +91,8 @@ class InterfaceGradient {
   const Mesh& mesh_;
   const SimplexZone& zone_;
   BoundarySides sides_;
-  CellField<Real> deep_;  // 1: in the solid, with all vertex neighbours
+  CellField<Real> deep_;         // 1: in the solid, with all vertex neighbours
+  std::vector<char> near_wall_;  // [n_owned] 1: at a wall or beside a cell at one
   std::vector<Index> last_deep_;
   CellField<Tensor> strain_;
   std::vector<Index> beside_;  // cells of the solid that are not deep

@@ -78,11 +78,11 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
   L_.clear();
   for (const Index c : known_.core()) {
     const bool fitted = by_fit(snapshot, c);
-    if (!inner(c))
-      L_.push_back(bounded(fitted ? snapshot.one_sided->strain()[c] : of_own_side(c), c));
-    else
-      L_.push_back(fitted ? snapshot.one_sided->strain()[c]
-                          : flux_consistent_gradient(snapshot, mesh_, c));
+    const Tensor L = fitted     ? snapshot.one_sided->strain()[c]
+                     : inner(c) ? flux_consistent_gradient(snapshot, mesh_, c)
+                                : of_own_side(c);
+    const bool wedged = fitted && snapshot.one_sided->near_wall(c);
+    L_.push_back(inner(c) && !wedged ? L : bounded(L, c));
   }
 }
 

@@ -148,7 +148,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   const solid::CutFaces cuts{body.alpha_f, body.normal_f, fraction};
   solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
   snapshot.contact = &contact;
-  if (!body.two_viscosities) snapshot.cuts = &cuts;
+  snapshot.cuts = &cuts;
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());
