@@ -22,7 +22,7 @@ void add_kinetic_energy(Sum& sum, const Solver& solver) {
 
 EnergyBalance::EnergyBalance(const Solver& solver) : u_b_(solver.mesh()) {
   set_power_and_stored(solver);
-  first_ = largest_ = stored_;
+  least_ = largest_ = stored_;
 }
 
 Real kinetic_energy(const Solver& solver) {
@@ -85,11 +85,9 @@ void EnergyBalance::add(const Solver& solver, Real dt) {
   work_ += dt * (before + power_) / 2;
   done_ += dt * (std::abs(before) + std::abs(power_)) / 2;
   largest_ = std::max(largest_, stored_);
-  if (++steps_ <= start) {
-    first_ = stored_ - work_;
-  } else {
-    made_ = std::max(made_, stored_ - first_ - work_);
-  }
+  const Real rest = stored_ - work_;
+  least_ = ++steps_ <= start ? rest : std::min(least_, rest);
+  made_ = std::max(made_, rest - least_);
 }
 
 Real EnergyBalance::part_made() const {
@@ -98,7 +96,7 @@ Real EnergyBalance::part_made() const {
 }
 
 void EnergyBalance::list(io::Snapshot& snapshot) {
-  snapshot.add("energy_first", &first_);
+  snapshot.add("energy_least", &least_);
   snapshot.add("energy_largest", &largest_);
   snapshot.add("energy_work", &work_);
   snapshot.add("energy_done", &done_);

@@ -11,9 +11,9 @@ Real kinetic_energy(const Solver& solver);
 /// Stored are the kinetic energy and the elastic energy of the solids. What walls, openings,
 /// forces, the solids' weight in the fluid and the mean velocity's gradient do on the fluid and
 /// solid is the work; viscosity takes some of it away. So stored - work can
-/// only fall, and what it rises by the scheme has made:
+/// only fall, and what it rises by the scheme has made, however much was taken before:
 ///
-///   made = max over t > t_0 of (E(t) - E(t_0) - W(t) + W(t_0)),  at least 0
+///   made = max over t > s > t_0 of ((E - W)(t) - (E - W)(s)),  at least 0
 ///   dW/dt = sum_b {mu g (u_b - u_P) . u_b + alpha_b (tau . S) . u_b - p_b phi - rho |u_b|^2 phi /
 ///   2}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
@@ -49,7 +49,7 @@ class EnergyBalance {
   void add_power_of_boundary(Sum& sum, const Solver& solver);
 
   BoundaryField<Vec3> u_b_;
-  Real first_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
+  Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
   std::int64_t steps_ = 0;
 };
 

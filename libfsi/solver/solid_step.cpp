@@ -149,6 +149,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
   snapshot.contact = &contact;
   snapshot.cuts = &cuts;
+  snapshot.has_traction = body.two_viscosities.has_value();
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());
