@@ -95,9 +95,10 @@ void Watch::taken_back(const StepReport& report, std::int64_t steps, const Limit
   told_of_steps_ = true;
   const auto of_reason = [](const auto& entry) { return entry.second; };
   const auto most = std::ranges::max_element(report.rejections, {}, of_reason);
-  std::string text = print("%lld of the first %lld steps failed and were taken again, shorter: ",
-                           static_cast<long long>(count), static_cast<long long>(steps)) +
-                     most->first;
+  std::string text =
+      print("%lld attempts at a step failed in %lld steps and were made again, shorter: ",
+            static_cast<long long>(count), static_cast<long long>(steps)) +
+      most->first;
   if (asked.name == "fixed")
     text += print("; -time_step %.4g is too long, a shorter one, or none, costs less", asked.dt);
   say("notice", text);

@@ -24,7 +24,7 @@ class Watch {
   std::string energy(Real made, const Solver& solver);
   /// A warning where the flow through the openings is past what stays laminar in a vessel.
   void reynolds(Real number);
-  /// A notice when many of the `steps` of this run were taken back, with the reason of most of them
+  /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
   /// and, where a step was given, the advice to give a shorter one.
   void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
   /// Notices when a solid begins to leave the mesh, and when it has.

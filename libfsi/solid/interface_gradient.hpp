@@ -62,7 +62,7 @@ class InterfaceGradient {
 
   /// Collective, after `apply` with the same L, u, u_b, alpha and cells, all of the solid's among
   /// them. Sets `strain` in the solid's cells. It is L in those whose vertex neighbours are all of
-  /// the solid and tell the fit, and in those at a wall or beside a cell at one. In the others it
+  /// the solid and tell the fit, and in those `near_wall`. In the others it
   /// is, by the pairs of cells of the solid,
   ///   min over L_c of sum_k w |u_k - u_c - (L_c + L_k) / 2 . d|^2,  w = 1 / |d|^2,
   /// and by u_b as where L changes no more (`one_sided_gradient`). All are found at once in a few

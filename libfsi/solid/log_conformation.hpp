@@ -74,7 +74,8 @@ class LogConformation {
   /// Sets L_: by the fit of one side in its zone, else the velocity gradient without the divergence
   /// of the cell velocities (solenoidal.hpp). In the solid's outermost cells it is that of its own
   /// side (one_sided.hpp). By it they take up no more energy over dt than the force takes from the
-  /// flow (work_bound.hpp).
+  /// flow (work_bound.hpp), but where a traction adds to the force. So do all cells of the zone
+  /// near walls.
   void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt);
   /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);

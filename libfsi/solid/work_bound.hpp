@@ -1,5 +1,6 @@
 #pragma once
-// A bound for the strain of the solid's outermost cells: the work that its force takes up.
+// A bound for the strain of the solid's outermost cells, and of those near walls in the zone of
+// simplices: the work that its force takes up.
 
 #include <algorithm>
 #include <cmath>

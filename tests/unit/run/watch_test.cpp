@@ -57,7 +57,8 @@ TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
   EXPECT_EQ(said(2, 18, 300), "") << "not one in ten";
   const std::string notice = said(2, 38, 300);
   if (rank() == 0) {
-    EXPECT_NE(notice.find("40 of the first 300 steps"), std::string::npos) << notice;
+    EXPECT_NE(notice.find("40 attempts at a step failed in 300 steps"), std::string::npos)
+        << notice;
     EXPECT_NE(notice.find("another; -time_step 0.25 is too long"), std::string::npos) << notice;
   }
   EXPECT_EQ(said(2, 100, 310), "");
