@@ -170,7 +170,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
   return face - back(up, u);
 }
 
-Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
+Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const {
   // Triangles and tetrahedra know grad xi by a regression, which loses more of the volume. A map
   // that alone tells B is rather left to it: moved by more, a coarse solid is drawn to a lid.
   const Real part = beside_psi_ && mesh_.simplex(c) ? 0.12 : 0.06;
@@ -182,7 +182,17 @@ Vec3 ReferenceMap::towards_volume(Index c, Real courant) const {
     const Real there = filled_[n] >= alpha_known ? volume_ratio(n) : 1;
     grad_J += (there - J) * stencil_.weight(f, mesh_.owner[f] == c);
   }
-  return (part * courant * h * h) * dot(gradient_of_map(c), grad_J);
+  const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
+  Vec3 way = courant * grad_J;
+  if (beside_psi_) {
+    // No stress answers to J. Where a lasting load holds the solid in its place, the normal
+    // velocity that the outermost cells keep would add to it without end. At the surface they move
+    // along its normal: what differs along it the fluxes tell.
+    const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry());
+    const Vec3 along = n == Vec3{} ? grad_J : dot(grad_J, n) * n;
+    way += (dt * snapshot.wave_speed / h) * along;
+  }
+  return (part * h * h) * dot(gradient_of_map(c), way);
 }
 
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
@@ -215,8 +225,7 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
       off += more - dot(more, n) * n;
     }
     sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(L, off));
-    const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
-    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum + towards_volume(c, courant));
+    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum + towards_volume(c, snapshot, dt));
   }
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];

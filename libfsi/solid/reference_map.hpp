@@ -21,8 +21,8 @@ namespace fsi::solid {
 /// by (det B)^(1/dim), the error of volume that the map's transport leaves. Of that error J - 1,
 /// J = det grad xi, each step takes some back: the map is moved along grad J,
 ///   xi <- xi + k h^2 grad xi . grad J,   k = 0.06 dt (rate of the cell's Courant number),
-/// which lets J diffuse out of the solid, J = 1 around it. Nothing else relaxes: what returns to
-/// its place is undeformed again.
+/// which lets J diffuse out of the solid, J = 1 around it. Beside psi the wave's rate c / h adds to
+/// that of the flow. Nothing else relaxes: what returns to its place is undeformed again.
 class ReferenceMap {
  public:
   /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
@@ -99,8 +99,8 @@ class ReferenceMap {
   /// there leaves cell c.
   Vec3 face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
-  /// What the error of volume moves the map by.
-  Vec3 towards_volume(Index c, Real courant) const;
+  /// What the error of volume moves the map by in dt.
+  Vec3 towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const;
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;

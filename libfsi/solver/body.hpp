@@ -1,6 +1,7 @@
 #pragma once
 // A soft solid and what moves it: everything a scene without solid does not have.
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -139,6 +140,8 @@ struct Body {
   const solid::ReferenceMap* map() const {
     return remembers() ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
   }
+  /// Of shear in the solid at rest: c = sqrt(G / rho).
+  Real wave_speed() const { return std::sqrt(G / rho); }
   /// Whether a map beside psi takes part.
   bool remembers() const { return memory && held; }
   /// B of any cell, the unit tensor where there is none.

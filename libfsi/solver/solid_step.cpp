@@ -42,7 +42,7 @@ solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
           .stencil = flow.pressure.cells,
           .weights = body.weights,
           .one_sided = body.interface_gradient ? &*body.interface_gradient : nullptr,
-          .wave_speed = std::sqrt(body.G / body.rho),
+          .wave_speed = body.wave_speed(),
           .recovery = body.G / body.mu,
           .memory = body.remembers() ? &*body.memory : nullptr};
 }
@@ -135,7 +135,8 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
                                      .u = flow.u,
                                      .L = L,
                                      .stencil = flow.pressure.cells,
-                                     .weights = body.weights};
+                                     .weights = body.weights,
+                                     .wave_speed = body.wave_speed()};
   map.transport(body.fraction_of_memory(), snapshot, body.dt, body.grad);
 }
 
