@@ -37,7 +37,7 @@ class EnergyBalance {
   /// What the scheme has made, as above.
   Real made() const { return made_; }
   /// That in parts of the largest energy that was stored and of the work: what a run may have made
-  /// and be right.
+  /// and be right. They count as no less than what rounding may make of the elastic energy.
   Real part_made() const;
 
   /// What a restart goes on from; part of a checkpoint.
@@ -50,6 +50,7 @@ class EnergyBalance {
 
   BoundaryField<Vec3> u_b_;
   Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
+  Real rounding_ = 0;  // below it energies tell nothing
   std::int64_t steps_ = 0;
 };
 
