@@ -1,5 +1,7 @@
 #include "libfsi/io/table.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -11,12 +13,36 @@
 #include "libfsi/io/file.hpp"
 
 namespace fsi::io {
+namespace {
+
+/// Errors: Error{input} where nobody could find the columns by their names.
+void require_names(const std::string& file, const std::vector<std::string>& columns) {
+  const auto blank = [](unsigned char c) { return std::isspace(c) != 0; };
+  const auto breaks = [](unsigned char c) { return c == ',' || c == '"' || std::iscntrl(c) != 0; };
+  for (const std::string& name : columns) {
+    std::string shown = name;
+    std::ranges::replace_if(
+        shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    require(
+        !name.empty() && !blank(name.front()) && !blank(name.back()) &&
+            std::ranges::none_of(name, breaks),
+        "\"" + shown + "\" cannot be the name of a column of \"" + file +
+            "\": a name has at least one letter, no blank at its ends, and no comma, quote or " +
+            "line break");
+    require(std::ranges::count(columns, name) == 1, "\"" + file + "\" would have two columns \"" +
+                                                        name +
+                                                        "\": rename the one that the driver adds");
+  }
+}
+
+}  // namespace
 
 Table::Table(const std::string& file, std::vector<std::string> columns)
     : Table(file, std::move(columns), -std::numeric_limits<Real>::infinity()) {}
 
 Table::Table(const std::string& file, std::vector<std::string> columns, Real resume_at)
     : file_(file), columns_(std::move(columns)) {
+  require_names(file_, columns_);
   std::string head, reason;
   for (const std::string& column : columns_) head += (head.empty() ? "" : ",") + column;
   std::string kept = head + "\n", found = head;

@@ -17,7 +17,8 @@ class Table {
  public:
   /// Collective. Creates the file, or with resume_at keeps the whole rows whose first column (the
   /// time) is not beyond it. Errors: Error{io} when it cannot be written; Error{input} when a file
-  /// to be resumed has other columns.
+  /// to be resumed has other columns. Error{input}, too, where a name is empty, is there twice, has
+  /// a blank at its ends, or a comma, a quote or a line break in it.
   Table(const std::string& file, std::vector<std::string> columns);
   /// The same in a restart at time resume_at.
   Table(const std::string& file, std::vector<std::string> columns, Real resume_at);

@@ -157,9 +157,6 @@ void Output::open_tables() {
   const std::vector<SolidRecord> before = records_;
   std::vector<Row> first = rows({}, 0, 0);
   const std::vector<std::string> of_flow = names(first[0].entries);
-  for (const Column& column : columns_)
-    require(std::ranges::count(of_flow, column.name) == 1,
-            "flow.csv would have two columns \"" + column.name + "\": rename that of the driver");
   flow_.emplace(directory + "/flow.csv", of_flow, t_row);
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const std::string& name = solver_.bodies()[i].name;

@@ -44,6 +44,7 @@ class Output {
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
+  /// Error{input} where the name of one cannot stand in a table (io::Table).
 
   /// Whether the run may go on; false once a step failed for good, wall time is up or the end was
   /// asked for.

@@ -97,6 +97,28 @@ TEST(Table, ARowHasAValueForEachColumn) {
   EXPECT_EQ(content(folder / "a.csv"), "t,x\n");
 }
 
+TEST(Table, ANameThatNobodyCanReadIsRefused) {
+  const Folder folder;
+  const auto sentence = [&](const std::vector<std::string>& columns) {
+    try {
+      const Table table(folder / "a.csv", columns);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(sentence({"t", "mean speed", "u'v'"}), "");
+  for (const char* name : {"", " ", "a,b", "\"a", "a\nb", "a\r", "x ", "\tx"}) {
+    const std::string said = sentence({"t", name});
+    EXPECT_NE(said.find("cannot be the name of a column of \"" + (folder / "a.csv")),
+              std::string::npos)
+        << name << ": " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+  EXPECT_NE(sentence({"t", "x", "t"}).find("two columns \"t\""), std::string::npos);
+}
+
 TEST(Table, AMissingFolderIsAnError) {
   const Folder folder;
   try {

@@ -91,15 +91,19 @@ TEST(Output, ARestartGoesOnWithADriversColumn) {
 
 TEST(Output, ADriversColumnHasANameOfItsOwn) {
   const Folder folder;
-  for (const std::string name : {"dt", "of_step"}) {
+  const auto sentence = [&](const std::string& name) {
     try {
-      channel(folder / "twice", 1, false, name);
-      ADD_FAILURE() << "accepted";
+      channel(folder / "named", 1, false, name);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(std::string(error.what()).find("two columns \"" + name + "\""), std::string::npos);
+      return std::string(error.what());
     }
-  }
+    return std::string("accepted");
+  };
+  for (const std::string name : {"t", "dt", "of_step"})
+    EXPECT_NE(sentence(name).find("two columns \"" + name + "\""), std::string::npos) << name;
+  for (const char* name : {"", "x,y", "\"x", "x\ny"})
+    EXPECT_NE(sentence(name).find("cannot be the name of a column"), std::string::npos) << name;
 }
 
 }  // namespace
