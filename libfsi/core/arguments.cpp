@@ -1,9 +1,8 @@
 #include "libfsi/core/arguments.hpp"
 
-#include <filesystem>
-
 #include <cctype>
-#include <set>
+#include <filesystem>
+#include <map>
 
 namespace fsi {
 namespace {
@@ -17,7 +16,17 @@ bool is_option(const std::string& word) {
 
 bool is_yaml(const std::string& name) { return name.ends_with(".yaml") || name.ends_with(".yml"); }
 
+bool names_file(const std::string& plain) {
+  return plain == "-options_file" || plain == "-options_file_yaml";
+}
+
 }  // namespace
+
+std::string plain_name(const std::string& option) {
+  std::string name = option.substr(option.starts_with("--") ? 1 : 0);
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
 
 Arguments read_arguments(int argc, char** argv) {
   Arguments result;
@@ -41,13 +50,22 @@ Arguments read_arguments(int argc, char** argv) {
 }
 
 std::string fault_of(const Arguments& arguments) {
-  std::set<std::string> seen;
+  std::map<std::string, std::string> seen;  // the words by their plain names
   bool value_may_follow = false;
   for (std::size_t i = 1; i < arguments.words.size(); ++i) {
     const std::string& word = arguments.words[i];
     const bool option = is_option(word);
-    if (option && !seen.insert(word).second)
-      return "option " + word + " is given twice on the command line";
+    if (option) {
+      const auto [first, is_new] = seen.emplace(plain_name(word), word);
+      if (!is_new)
+        return "option " + word + " is given twice on the command line" +
+               (first->second == word ? ""
+                                      : ", first as " + first->second +
+                                            ": capitals and a second dash make no other option");
+      if (names_file(first->first) &&
+          (i + 1 == arguments.words.size() || arguments.words[i + 1].starts_with("-")))
+        return "option " + word + " needs the name of a file";
+    }
     if (!option && !value_may_follow)
       return "argument \"" + word + "\" belongs to no option" +
              (i > 1 ? "; it follows \"" + arguments.words[i - 1] + "\" (a list is one word: a,b,c)"
@@ -55,6 +73,15 @@ std::string fault_of(const Arguments& arguments) {
     value_may_follow = option;
   }
   return "";
+}
+
+std::vector<OptionsFile> options_files(const Arguments& arguments) {
+  std::vector<OptionsFile> files;
+  for (std::size_t i = 1; i + 1 < arguments.words.size(); ++i) {
+    const std::string option = plain_name(arguments.words[i]), &name = arguments.words[i + 1];
+    if (names_file(option)) files.push_back({name, option.ends_with("_yaml") || is_yaml(name)});
+  }
+  return files;
 }
 
 }  // namespace fsi

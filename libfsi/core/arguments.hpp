@@ -18,9 +18,22 @@ struct Arguments {
 /// A first argument that ends in .yaml or .yml is the options file.
 Arguments read_arguments(int argc, char** argv);
 
-/// What is wrong with the words: an option given twice, a word that belongs to no option. "" where
-/// nothing is.
+/// The name of an option as PETSc compares it: without capitals, and with one dash where it has
+/// two.
+std::string plain_name(const std::string& option);
+
+/// What is wrong with the words: an option given twice, be it with other capitals, a word that
+/// belongs to no option, an options file without a name. "" where nothing is.
 std::string fault_of(const Arguments& arguments);
+
+/// A file of options that the words name.
+struct OptionsFile {
+  std::string name;   ///< as the user typed it
+  bool yaml = false;  ///< whether PETSc reads it as YAML
+};
+
+/// Those of -options_file and -options_file_yaml, in the order of the words.
+std::vector<OptionsFile> options_files(const Arguments& arguments);
 
 /// The first option that an options file gives twice, in blocks or in braces (nested keys join
 /// with _); "" where none is.

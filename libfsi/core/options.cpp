@@ -15,6 +15,7 @@
 #include <sstream>
 #include <utility>
 
+#include "libfsi/core/arguments.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -302,9 +303,10 @@ std::string Options::yaml() const {
     if (!entry.value.empty()) text += entry.name + ": " + quoted(entry.value) + "\n";
   bool headed = false;
   for (const auto& [name, value] : all_given()) {
-    const auto same = [&, &key = name](const Entry& entry) { return entry.name == key; };
-    if (std::any_of(entries_.begin(), entries_.end(), same) || name.starts_with("options_file") ||
-        name == "help" || name == "case_folder")
+    const std::string plain = plain_name(name);  // a solid may have capitals in its name
+    const auto same = [&](const Entry& entry) { return plain_name(entry.name) == plain; };
+    if (std::any_of(entries_.begin(), entries_.end(), same) || plain.starts_with("options_file") ||
+        plain == "help" || plain == "case_folder")
       continue;
     if (!headed) text += "# options of PETSc\n";
     headed = true;

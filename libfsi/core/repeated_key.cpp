@@ -16,9 +16,7 @@ struct Names {
 
   /// PETSc's options know no capitals.
   void note(const std::string& name) {
-    std::string plain = name;
-    for (char& c : plain) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (!seen.insert(plain).second && twice.empty()) twice = name;
+    if (!seen.insert(plain_name(name)).second && twice.empty()) twice = name;
   }
 };
 

@@ -69,6 +69,17 @@ std::string text_of(const std::string& file) {
   return text;
 }
 
+/// Collective. Errors: Error{input} where a file cannot be read, or holds what PETSc would take
+/// silently.
+void check_file(const OptionsFile& file) {
+  if (file.name.find_first_of("$:") != std::string::npos) return;  // PETSc knows what these mean
+  const std::string text = text_of(file.name);
+  if (!file.yaml) return;
+  const std::string wrong = yaml_fault(text), twice = repeated_key(text);
+  require(wrong.empty(), "options file \"" + file.name + "\" is not valid YAML: " + wrong);
+  require(twice.empty(), "options file \"" + file.name + "\" gives " + twice + " twice");
+}
+
 /// Says that a petscrc of the folder takes part, which nobody sees on the command line.
 void tell_of_petscrc() {
   const auto given = [](const char* name) {
@@ -91,12 +102,8 @@ void tell_of_petscrc() {
 void start_petsc(Arguments& arguments) {
   const std::string fault = fault_of(arguments);
   require(fault.empty(), fault);
-  if (!arguments.file.empty()) {
-    const std::string text = text_of(arguments.file), wrong = yaml_fault(text);
-    require(wrong.empty(), "options file \"" + arguments.file + "\" is not valid YAML: " + wrong);
-    const std::string twice = repeated_key(text);
-    require(twice.empty(), "options file \"" + arguments.file + "\" gives " + twice + " twice");
-  }
+  const std::vector<OptionsFile> files = options_files(arguments);
+  for (const OptionsFile& file : files) check_file(file);
   std::vector<char*> words;
   for (std::string& word : arguments.words) words.push_back(word.data());
   int count = static_cast<int>(words.size());
@@ -105,9 +112,11 @@ void start_petsc(Arguments& arguments) {
   FSI_PETSC(PetscPushErrorHandler(quiet, nullptr));
   const PetscErrorCode code = PetscInitialize(&count, &list, nullptr, nullptr);
   // The options are all of it that depends on the user.
-  require(code == 0 || arguments.file.empty(),
-          "options file \"" + arguments.file + "\" is not valid YAML: " + petsc_text(code));
-  require(code == 0, "the options cannot be read: " + petsc_text(code));
+  std::string names;
+  for (const OptionsFile& file : files) names += (names.empty() ? "\"" : ", \"") + file.name + "\"";
+  require(code == 0,
+          (names.empty() ? "the options" : "the options, with those of the file " + names) +
+              " cannot be read: " + petsc_text(code));
   FSI_PETSC(PetscPopSignalHandler());
   tell_of_petscrc();
   if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));

@@ -32,6 +32,33 @@ TEST(Arguments, EveryWordBelongsToAnOption) {
   EXPECT_NE(fault_of(read({"-a", "1", "-a", "2"})).find("-a is given twice"), std::string::npos);
 }
 
+TEST(Arguments, CapitalsAndDashesMakeNoOtherOption) {
+  for (const char* again : {"-time_END", "--time_end", "--Time_End"}) {
+    const std::string said = fault_of(read({"-time_end", "1", again, "2"}));
+    EXPECT_NE(said.find("option " + std::string(again) + " is given twice"), std::string::npos)
+        << said;
+    EXPECT_NE(said.find("first as -time_end"), std::string::npos) << said;
+  }
+  EXPECT_NE(fault_of(read({"case.yaml", "-Options_File_Yaml", "b.yaml"})).find("given twice"),
+            std::string::npos);
+}
+
+TEST(Arguments, OptionsFilesAreFound) {
+  const auto files = options_files(
+      read({"case.yaml", "-a", "1", "-Options_file", "more", "-b", "-options_file_no", "x"}));
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].name, "case.yaml");
+  EXPECT_TRUE(files[0].yaml);
+  EXPECT_EQ(files[1].name, "more");
+  EXPECT_FALSE(files[1].yaml);
+  EXPECT_TRUE(options_files(read({"-options_file", "a.yml"})).front().yaml);
+  EXPECT_TRUE(options_files(read({"-options_file_yaml", "a"})).front().yaml);
+  for (const auto& words :
+       {std::vector<std::string>{"-options_file"}, {"-options_file", "-a", "1"}})
+    EXPECT_NE(fault_of(read(words)).find("-options_file needs the name of a file"),
+              std::string::npos);
+}
+
 TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
   EXPECT_EQ(repeated_key("a: 1\nb:\n  a: 2\n  c: 3\nc: 4\n"), "");
   EXPECT_EQ(repeated_key("a: 1\nb: 2\na: 3\n"), "a");

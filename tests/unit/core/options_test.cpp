@@ -92,6 +92,18 @@ TEST(Options, NumbersOfAnEverydaySizeHaveNoExponent) {
   }
 }
 
+TEST(Options, TheFileThatRepeatsTheRunHasAnOptionOnceWhateverItsCapitals) {
+  FSI_PETSC(PetscOptionsClear(nullptr));
+  FSI_PETSC(PetscOptionsInsertString(nullptr, "-Fluid_Density 2 -P_ksp_rtol 1e-9"));
+  Options options("test", "a test");
+  EXPECT_EQ(options.real("fluid_density", 1, {.help = ""}), 2);
+  const std::string yaml = options.yaml();
+  EXPECT_NE(yaml.find("fluid_density: \"2\""), std::string::npos) << yaml;
+  EXPECT_EQ(yaml.find("Fluid_Density"), std::string::npos) << yaml;
+  EXPECT_NE(yaml.find("P_ksp_rtol: \"1e-9\""), std::string::npos) << yaml;
+  FSI_PETSC(PetscOptionsClear(nullptr));
+}
+
 TEST(Options, TheFileThatRepeatsTheRunNamesVersionAndCommit) {
   const std::string yaml = Options("test", "a test").yaml();
   EXPECT_NE(yaml.find("\n# libfsi " + version() + ", commit " + commit() + "\n"),

@@ -15,6 +15,8 @@ YAML = {
     "braces_good.yaml": "{value: 7, mode: complete}\n",
     "broken.yaml": "value: [1, 2\n mode: }",
     "empty.yaml": "",
+    "words": "# a comment\n-value 7\n",
+    "bad_words": "value 7\n",
 }
 # Arguments, exit code, what the sentence (or, with code 0, the output) must hold.
 CASES = [
@@ -51,7 +53,19 @@ CASES = [
     ("good.yaml -mode input -version", 0, "rim "),
     ("nested.yml", 2, "-value_colour"),
     ("empty.yaml", 2, "is empty"),
-    ("-options_file_yaml nowhere.yaml", 2, "nowhere.yaml"),
+    ("-options_file_yaml nowhere.yaml", 2, '"nowhere.yaml" cannot be opened'),
+    ("-options_file_yaml twice.yaml", 2, '"twice.yaml" gives value twice'),
+    ("-options_file words", 0, "value 7"),
+    ("-options_file good.yaml", 0, "value 7"),
+    ("good.yaml -options_file words", 0, "value 7"),
+    ("good.yaml -options_file nowhere", 2, '"nowhere" cannot be opened'),
+    ("good.yaml -options_file twice.yaml", 2, '"twice.yaml" gives value twice'),
+    ("-options_file nowhere", 2, '"nowhere" cannot be opened'),
+    ("-options_file bad_words", 2, '"bad_words"'),
+    ("good.yaml -options_file", 2, "-options_file needs the name of a file"),
+    ("-value 1 -Value 2", 2, "-Value is given twice on the command line, first as -value"),
+    ("-value 1 --value 2", 2, "--value is given twice"),
+    ("-Value 3", 0, "value 3"),
 ]
 
 
