@@ -39,7 +39,6 @@ struct SolidSetup {
   Real thickness = 0;          ///< the least of its dimensions
   Real centre_z = 0;           ///< which a 2-D run does not know
   std::string options;         ///< what its options begin with: "solid_" or "solids_NAME_"
-  std::string by_default{};    ///< its sizes that no option gives, in words; "": none
 };
 
 /// A case as the user described it.
@@ -61,8 +60,7 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
 std::vector<std::string> solids_without_shape(const Options& options);
 /// A solid's shape in the mesh: a plane cuts it through its centre, whatever z that has.
 shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s);
-/// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid, with the sizes
-/// that nobody gave.
+/// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
 void put_solids(Solver& solver, const Case& setup);
 
 /// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the

@@ -177,7 +177,7 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
       "the run keeps a map to the undeformed solid and holds shape and strain to it; not with "
       "left_cauchy_green");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
-  solid.by_default = sizes_by_default(read, of, solid.shape_name);
+  solid.solid.by_default = sizes_by_default(read, of, solid.shape_name);
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));
 }
@@ -218,12 +218,7 @@ void put_solids(Solver& solver, const Case& setup) {
   for (const SolidSetup& s : setup.solids) {
     Solid solid = s.solid;
     solid.shape = shape_in(solver.mesh(), s);
-    try {
-      solver.put_solid(solid);
-    } catch (const Error& error) {
-      if (s.by_default.empty() || error.kind() != ErrorKind::input) throw;
-      throw Error(error.kind(), std::string(error.what()) + "; by default it has " + s.by_default);
-    }
+    solver.put_solid(solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)

@@ -35,6 +35,8 @@ struct Solid {
   /// Whether a map to the undeformed solid holds shape and strain to each other; not with
   /// left_cauchy_green.
   bool memory = true;
+  /// Sizes that nobody chose, in words. The sentence that the solid does not fit tells them.
+  std::string by_default{};
 };
 
 }  // namespace fsi

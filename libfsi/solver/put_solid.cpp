@@ -11,25 +11,31 @@
 namespace fsi {
 namespace {
 
-/// Errors: Error{input} where the body cannot be that one among the others.
-void require_place(const Body& body, const std::deque<Body>& others, const Mesh& mesh) {
-  const std::string which = body.name.empty() ? "the solid" : "solid \"" + body.name + "\"";
+std::string called(const Body& body) {
+  return body.name.empty() ? "the solid" : "solid \"" + body.name + "\"";
+}
+
+/// by_default: sizes of its shape that nobody chose. Errors: Error{input} where the body does not
+/// fit among the others.
+void require_place(const Body& body, const std::string& by_default, const std::deque<Body>& others,
+                   const Mesh& mesh) {
+  const std::string which = called(body),
+                    sizes = by_default.empty() ? "" : "; by default it has " + by_default;
   require(body.filled.volume > 0,
-          which + " is empty: its shape lies outside the mesh or is smaller than a cell");
+          which + " is empty: its shape lies outside the mesh or is smaller than a cell" + sizes);
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
   require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
                                                  print("%.4g", -body.filled.clearance) +
-                                                 ": move it or make it smaller");
+                                                 ": move it or make it smaller" + sizes);
   for (const Body& other : others) {
     if (&other == &body) continue;
-    require(other.name != body.name, "two solids have the name \"" + body.name + "\"");
     Real most = 0;
     for (Index c = 0; c < mesh.n_owned; ++c)
       if (body.alpha[c] > 0 && other.alpha[c] > 0)
         most = std::max(most, body.alpha[c] + other.alpha[c] - 1);
     constexpr Real error_of_fill = 1e-3;
     require(global_max(most) < error_of_fill,
-            which + " overlaps solid \"" + other.name + "\" at the start: move one of them");
+            which + " overlaps " + called(other) + " at the start: move one of them" + sizes);
   }
 }
 
@@ -56,8 +62,15 @@ void Solver::put_solid(const Solid& solid) {
   bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls);
   Body& body = bodies_.back();
   body.t = state_.t;
-  require_place(body, bodies_, mesh_);
+  try {
+    require_place(body, solid.by_default, bodies_, mesh_);
+  } catch (const Error&) {
+    bodies_.pop_back();  // all ranks throw alike
+    throw;
+  }
   set_modes(body);
+  for (const Body& other : bodies_)
+    require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
   fractions_.push_back({.alpha = &body.alpha, .mid = &body.alpha_mid});
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());

@@ -29,6 +29,42 @@ TEST(PutSolids, APlaneCutsASolidThroughItsCentreWhateverItsHeight) {
   }
 }
 
+// The sizes that nobody gave are told where a solid does not fit, and where it is refused for
+// another reason they are not.
+TEST(PutSolids, SizesByDefaultAreToldOfWhatDoesNotFit) {
+  const Mesh mesh = test::box_mesh({.n = {16, 16, 0}, .periodic = {true, true, false}});
+  SolidSetup disc;
+  disc.solid.by_default = "-solid_radius 0.2";
+  disc.shape_name = "sphere";
+  const auto sentence = [&](const Vec3& centre, const FlowSetup& flow, const Vec3& second) {
+    Case setup;
+    for (const Vec3& place : {centre, second}) {
+      disc.solid.shape = shapes::translate(shapes::sphere(0.2), place);
+      disc.solid.name = setup.solids.empty() ? "one" : second == Vec3{} ? "one" : "two";
+      setup.solids.push_back(disc);
+    }
+    Solver solver(mesh, {}, flow);
+    solver.start([](const Vec3&) { return Vec3{}; });
+    try {
+      put_solids(solver, setup);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string sizes = "; by default it has -solid_radius 0.2";
+  const Vec3 middle{0.5, 0.5, 0};
+  EXPECT_EQ(sentence(middle, {}, {0.5, 0.6, 0}),
+            "solid \"two\" overlaps solid \"one\" at the start: move one of them" + sizes);
+  EXPECT_EQ(
+      sentence({0.5, 0.5, 5}, {}, middle),
+      "solid \"one\" is empty: its shape lies outside the mesh or is smaller than a cell" + sizes);
+  EXPECT_EQ(sentence(middle, {}, {}), "two solids have the name \"one\"");
+  EXPECT_EQ(sentence(middle, {.orthogonal_projection = true}, {}),
+            "an orthogonal projection (-flow_projection) is for a fluid without solids");
+}
+
 TEST(Differences, AnotherShapeIsRefused) {
   EXPECT_EQ(differences("solid_radius 1\ntime 2\n", "solid_radius 1\ntime 2\n"), "");
   EXPECT_NE(differences("solid_density 1\n", "solid_density 2\n").find("-solid_density 2 (was 1)"),
