@@ -128,7 +128,9 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
 
 void Momentum::hold_old() {
   whole_past_ = true;
-  if (!old_) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
+  if (old_) return;
+  old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
+  steps_taken = 0;  // the velocity before the last step is not known
 }
 
 // Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,

@@ -77,7 +77,7 @@ class Momentum {
   /// The same, to list and to restore.
   History& history() { return history_; }
   Real dt_old = 0, dt_before = 0;  ///< lengths of those steps, 0: none yet
-  std::int64_t steps_taken = 0;    ///< since t = 0
+  std::int64_t steps_taken = 0;    ///< since t = 0, or since hold_old made its fields
   Real theta = 0.5;                ///< after the first steps, at least
   /// The least theta of a step of dt after the first ones: more than `theta` after
   /// `bound_explicit_viscosity` where viscosity smooths a cell within the step, as the transposed
@@ -87,7 +87,7 @@ class Momentum {
   /// theta_f of the last `predict`, what goes with its u*.
   const FaceField<Real>& theta_taken() const { return theta_f_; }
   /// Collective. There is a transposed viscous term of a viscosity up to mu_max: raises theta_at
-  /// and extrapolates less of the rest. Before the first step; the largest of several holds.
+  /// and extrapolates less of the rest. Between two steps; the largest of several holds.
   void bound_explicit_viscosity(Real mu_max);
   /// The velocity before the last step, part of a checkpoint, and at the boundary, to be set from
   /// it before `predict`.
@@ -95,7 +95,8 @@ class Momentum {
     CellField<Vec3> u;        ///< in the cells
     BoundaryField<Vec3> u_b;  ///< at the boundary
   };
-  /// Second order in time from now on where theta = 1 at all faces; before the first step.
+  /// Second order in time from now on where theta = 1 at all faces. Between two steps; the next two
+  /// are damped as the first ones are.
   void hold_old();
   /// Empty on regular meshes without hold_old.
   std::optional<Old>& old() { return old_; }

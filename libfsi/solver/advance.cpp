@@ -8,6 +8,7 @@
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -132,7 +133,17 @@ void Solver::at_one_time(const std::function<void()>& use) {
   take_back();
 }
 
+void Solver::require_step(Real dt) const {
+  require_bodies();
+  if (dt > 0 && std::isfinite(dt)) return;  // no sentence is made in every step
+  throw Error(
+      ErrorKind::input,
+      print("a step of length dt = %g was asked for at t = %g: dt must be above 0 and finite", dt,
+            state_.t));
+}
+
 Real Solver::advance(Real dt) {
+  require_step(dt);
   if (!backup_) hold_backup();
   backup_->keep();
   dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());

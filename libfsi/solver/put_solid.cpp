@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -50,9 +51,21 @@ void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
              .law = physics_.law});
 }
 
+void Solver::require_bodies() const {
+  if (bodies_.size() == fractions_.size()) return;  // no sentence is made in every step
+  throw Error(ErrorKind::input,
+              "the list bodies() of the solver has length " + std::to_string(bodies_.size()) +
+                  ", but put_solid put in " + std::to_string(fractions_.size()) +
+                  ": solids are put in by put_solid alone, and none is taken out; for a scene " +
+                  "without one make a new Solver");
+}
+
 void Solver::put_solid(const Solid& solid) {
+  require_bodies();
   require(!projection_.orthogonal(),
           "an orthogonal projection (-flow_projection) is for a fluid without solids");
+  for (const Body& other : bodies_)
+    require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
   std::vector<Patch> mirrors, walls;
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const Condition& here = conditions_[i];
@@ -69,8 +82,6 @@ void Solver::put_solid(const Solid& solid) {
     throw;
   }
   set_modes(body);
-  for (const Body& other : bodies_)
-    require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
   fractions_.push_back({.alpha = &body.alpha, .mid = &body.alpha_mid});
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());

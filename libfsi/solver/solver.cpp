@@ -146,6 +146,7 @@ void Solver::set_pressure_of_rest() {
 }
 
 void Solver::step(Real dt) {
+  require_step(dt);
   const Real t = state_.t;
   for (Body& body : bodies_) hold_shape(body);                                      // (1)
   for (Body& body : bodies_) advance_interface(body, t + body.time_offset() * dt);  // (2)

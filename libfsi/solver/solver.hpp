@@ -79,22 +79,26 @@ class Solver {
   /// that of fluid at rest between the openings, Lap p = 0; without openings it stays as it is.
   void start(const std::function<Vec3(const Vec3&)>& u_0);
 
-  /// Collective. Puts a solid into the fluid; before the first step, any number of times, each
-  /// with a name of its own where there are several. Errors: Error{input} where it is empty, leaves
-  /// the mesh, overlaps another or has another's name.
+  /// Collective. Puts a solid into the fluid, undeformed; any number of times, each with a name of
+  /// its own where there are several. One that is put in between two steps moves with the fluid
+  /// that is there. An Output watches the solids that were there when it was made: end it first
+  /// (Output). No solid is taken out again. Errors: Error{input} where it is empty, leaves the
+  /// mesh, overlaps another or has another's name; the solver is then as before.
   void put_solid(const Solid& solid);
   /// The same of G, mu_s and the acceleration of `Physics`.
   void put_solid(const shapes::Shape& shape,
                  KinematicsKind kind = KinematicsKind::log_conformation);
 
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
+  /// Error{input} where dt is not above 0 and finite, or a body was taken out of `bodies`; nothing
+  /// is changed.
   void step(Real dt);
 
   /// Collective. A step of dt or, where that fails, of a half, a quarter ... of it from the same
   /// state, with at most eight halvings. A step fails when it throws or when what it leaves behind
   /// is out of bounds (advance.cpp); the steps after it grow by a tenth each. Returns the length
-  /// taken; 0 when all failed:
-  /// report().failure then says why and the state is that before the step.
+  /// taken; 0 when all failed: report().failure then says why and the state is that before the
+  /// step. Errors: Error{input} as those of `step`.
   Real advance(Real dt);
 
   /// Collective. Brings a solid that stands between two steps to the state's time. The next step
@@ -141,7 +145,7 @@ class Solver {
   ///@}
   /// The solids, in the order they were put in.
   const std::deque<Body>& bodies() const { return bodies_; }
-  /// The same, to change.
+  /// The same, to change each of them. The list itself grows by put_solid alone.
   std::deque<Body>& bodies() { return bodies_; }
   /// The first of them; none in a scene without.
   const Body* body() const { return bodies_.empty() ? nullptr : &bodies_.front(); }
@@ -185,6 +189,10 @@ class Solver {
   Real mean_velocity() const { return flow::mean_velocity(state_.phi, axis_, mesh_); }
 
  private:
+  /// Errors: Error{input} where `bodies` is not what was put in.
+  void require_bodies() const;
+  /// Errors: Error{input} where that is no step.
+  void require_step(Real dt) const;
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
   void set_pressure_of_rest();

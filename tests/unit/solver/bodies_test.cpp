@@ -117,5 +117,74 @@ TEST(Bodies, RefusesASecondOfTheSameNameOrPlace) {
   EXPECT_EQ(sentence(disc("two", {0.8, 0.5, 0}, 1)), "");
 }
 
+/// What the call throws as bad input; "" where nothing.
+template <class Call>
+std::string refusal(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Bodies, OneThatIsRefusedIsNotThere) {
+  Scene scene(false), other(false);
+  for (Scene* one : {&scene, &other}) one->solver.put_solid(disc("one", {0.4, 0.5, 0}, 1));
+  for (const Solid& bad : {disc("two", {0.5, 0.5, 0}, 1), disc("one", {0.8, 0.5, 0}, 1),
+                           disc("two", {0.8, 0.1, 0}, 1), disc("two", {0.8, 5, 0}, 1)}) {
+    EXPECT_NE(refusal([&] { scene.solver.put_solid(bad); }), "");
+    EXPECT_EQ(scene.solver.bodies().size(), 1U);
+  }
+  for (Scene* one : {&scene, &other}) {
+    one->solver.put_solid(disc("two", {0.8, 0.5, 0}, 1));
+    ASSERT_EQ(one->solver.advance(0.02), 0.02);
+  }
+  for (Index c = 0; c < scene.mesh.n_owned; ++c)
+    ASSERT_EQ(norm(scene.solver.state().u[c] - other.solver.state().u[c]), 0);
+}
+
+TEST(Bodies, NoneIsTakenOut) {
+  Scene scene(false);
+  scene.solver.put_solid(disc("one", {0.4, 0.5, 0}, 1));
+  ASSERT_EQ(scene.solver.advance(0.02), 0.02);
+  scene.solver.bodies().clear();
+  for (const std::string& said : {refusal([&] { scene.solver.advance(0.02); }),
+                                  refusal([&] { scene.solver.step(0.02); }), refusal([&] {
+                                    scene.solver.put_solid(disc("two", {0.8, 0.5, 0}, 1));
+                                  })})
+    EXPECT_NE(said.find("none is taken out"), std::string::npos) << said;
+}
+
+// Into a flow that goes on for ever a disc is put that weighs or rubs more than the fluid. What it
+// changes in two steps is felt beside it, not at the walls.
+TEST(Bodies, OneThatIsPutInLaterPushesWhatIsBesideIt) {
+  for (const bool simplex : {false, true})
+    for (const auto& [mu, rho] : {std::array{0.1, 1.0}, {0.15, 1.0}, {1.0, 1.0}, {0.1, 3.0}}) {
+      Scene scene(simplex);
+      Solver& solver = scene.solver;
+      for (int i = 0; i < 5; ++i) ASSERT_EQ(solver.advance(0.005), 0.005);
+      Solid later = disc("later", {0.6, 0.5, 0}, 1, mu);
+      later.rho = rho;
+      solver.put_solid(later);
+      const Real volume = place(solver.bodies()[0]).volume;
+      for (int i = 0; i < 2; ++i) ASSERT_EQ(solver.advance(0.005), 0.005);
+      Real off = 0;
+      for (Index c = 0; c < scene.mesh.n_owned; ++c) {
+        const Vec3& x = scene.mesh.C[c];
+        if (std::abs(x.y - 0.5) > 0.45)
+          off = std::max(off, norm(solver.state().u[c] - Vec3{x.y - 0.5, 0, 0}));
+      }
+      EXPECT_LE(global_max(off), 5e-3) << mu << " " << rho << " " << simplex;
+      for (int i = 0; i < 100; ++i)
+        ASSERT_GT(solver.advance(std::min(0.01, solver.elastic_dt())), 0)
+            << solver.report().failure;
+      const Place end = place(solver.bodies()[0]);
+      EXPECT_NEAR(end.volume / volume, 1, 1e-12);
+      EXPECT_LE(norm(end.centre - Vec3{0.6, 0.5, 0}), 0.01);  // in the middle of the shear
+    }
+}
+
 }  // namespace
 }  // namespace fsi

@@ -108,6 +108,30 @@ TEST(Recovery, IsTheSmallerStepOnQuads) {
   for (const int good : {0, 1, 2, 3, 6, 7}) expect_recovery({}, good);
 }
 
+TEST(Recovery, AStepOfNoLengthIsRefused) {
+  const Mesh mesh = mesh_of({});
+  Trial one(mesh, {}), other(mesh, {});
+  one.steps(3, 0.02), other.steps(3, 0.02);
+  constexpr Real none = std::numeric_limits<Real>::quiet_NaN();
+  for (const Real dt : {0.0, -0.0, -0.02, none, std::numeric_limits<Real>::infinity()})
+    for (const bool whole : {true, false}) {
+      try {
+        if (whole)
+          one.solver.advance(dt);
+        else
+          one.solver.step(dt);
+        ADD_FAILURE() << dt << " was taken";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_NE(std::string(error.what()).find("dt must be above 0"), std::string::npos)
+            << error.what();
+      }
+    }
+  EXPECT_EQ(one.solver.state().t, other.solver.state().t);
+  one.steps(1, 0.02), other.steps(1, 0.02);
+  EXPECT_TRUE(one.state() == other.state());
+}
+
 TEST(Recovery, IsTheSmallerStepOnTriangles) {
   for (const int good : {6, 7}) expect_recovery({.simplex = true}, good);
 }
