@@ -49,7 +49,8 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     go_on_from_checkpoint();
   } else {
     checkpoints_.clear();
-    checkpoint_.resume(0);  // the start needs none
+    checkpoint_.resume(solver_.state().t);  // the start needs none
+    samples_.resume(solver_.state().t, "none");
   }
   tell_of_images(solver_);
   first_step_ = row_step_ = solver_.state().step;
@@ -168,7 +169,8 @@ void Output::open_tables() {
   if (restart) {
     records_ = before;  // they must be found as they were
   } else {
-    for (std::size_t i = 0; i < records_.size(); ++i) solids_[i]->row(values(first[i + 1].entries));
+    for (std::size_t i = 0; i < records_.size(); ++i)
+      if (solids_[i]) solids_[i]->row(values(first[i + 1].entries));
     samples_.hold(std::move(first));
   }
   if (case_.output.field_interval <= 0) return;
@@ -177,7 +179,18 @@ void Output::open_tables() {
   if (field_.due(solver_.state().t) || field_.at(solver_.state().t)) write_fields();
 }
 
+/// Tables, fields and checkpoints are of the solids that were there at the start.
+void Output::require_same_solids() const {
+  const std::size_t now = solver_.bodies().size(), before = records_.size();
+  require(now == before,
+          "the solver has " + std::to_string(now) + " solids, but " + std::to_string(before) +
+              " when this Output was made: put all of them into the solver before making the " +
+              "Output; to add one later, end this Output with finish() before put_solid, and " +
+              "make another in a new folder");
+}
+
 bool Output::go_on() {
+  saving([this] { require_same_solids(); });
   const Signal signal = pending_signal();
   const Real wall = case_.output.wall_seconds_max;
   if (signal == Signal::checkpoint) write_checkpoint();
@@ -209,6 +222,7 @@ void Output::after_step(const Limit& asked, Real dt) {
 }
 
 void Output::write_due(const Limit& asked, Real dt) {
+  require_same_solids();
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   if (s.step == first_step_ + 1) options_.check_unused();
@@ -354,6 +368,7 @@ std::string Output::summary(const std::string& status) const {
 RunStatus Output::finish() {
   const std::string& failure = solver_.report().failure;
   const bool complete = failure.empty() && !interrupted_;
+  saving([this] { require_same_solids(); });
   divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
   saving([&] {
     if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();

@@ -31,6 +31,11 @@ struct Column {
 
 /// Watches a Solver and writes the files of a run. Invariant: from construction on, summary.json
 /// says how the run stands; it reads "failed" until finish().
+///
+/// Its files are of the solids that the solver had when it was made. A solid put in later is
+/// refused at the next call. So a run to which solids are added has an Output, with a folder of its
+/// own, for each stretch of time between: finish(), `Solver::put_solid`, the next Output. Each
+/// begins at the time of the state, with columns like `turned` and `work` from 0.
 class Output {
  public:
   /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
@@ -39,30 +44,33 @@ class Output {
   /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
   /// directory, there is nothing to go on from, or it is of another driver or kinematics.
   /// columns: of flow.csv behind its own, taken at the start and after steps that a row is near.
+  /// Error{input} where the name of one cannot stand in a table (io::Table).
   Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver,
          std::vector<Column> columns = {});
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
-  /// Error{input} where the name of one cannot stand in a table (io::Table).
 
-  /// Whether the run may go on; false once a step failed for good, wall time is up or the end was
-  /// asked for.
+  /// Collective. Whether the run may go on; false once a step failed for good, wall time is up or
+  /// the end was asked for. Errors: Error{input} where a solid was put in since.
   bool go_on();
   /// Time of the next event that a step must hit.
   Real next_event() const;
   /// Collective. After every step of length dt, 0 if it failed: writes what is due. Errors: those
-  /// of the files, once a checkpoint is written and summary.json tells them, as far as that can be.
+  /// of the files, once a checkpoint is written and summary.json tells them, as far as that can be;
+  /// Error{input} where a solid was put in since.
   void after_step(const Limit& limit, Real dt);
   /// Collective. Last files; returns how the run ended. Errors: Error{numerics} with the reason
   /// where the last step failed; a checkpoint of the state before it is there. Error{io} where a
-  /// file, or the checkpoint of an interrupted run, could not be written.
+  /// file, or the checkpoint of an interrupted run, could not be written; Error{input} where a
+  /// solid was put in since.
   RunStatus finish();
 
  private:
   io::Snapshot snapshot();
   void go_on_from_checkpoint();
   void saving(const std::function<void()>& write);
+  void require_same_solids() const;
   std::string rescue(ErrorKind kind);
   bool saved() const;
   std::string where() const;

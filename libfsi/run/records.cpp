@@ -265,7 +265,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   turned_ += analysis::turn_about_z(orientation_.n, o.n);
   orientation_ = o;
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
-  if (volume_0_ == 0) volume_0_ = m.volume;
+  if (volume_0_ == 0) volume_0_ = m.volume + body.volume_out;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
   constexpr Real piece = 0.01;
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,

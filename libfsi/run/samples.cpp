@@ -100,7 +100,7 @@ void Samples::resume(Real t, const std::string& text) {
     return found ? value : -1;
   };
   if (text == "none") return;
-  for (Real size = next(); size > 0; size = next()) {
+  for (Real size = next(); size >= 0; size = next()) {  // 0: of a solid that has left
     Row& row = held_.emplace_back();
     row.t = next(), row.t_shape = next();
     for (Real i = 0; i < size; ++i) row.entries.push_back({"", next()});

@@ -114,6 +114,10 @@ TEST(Samples, ARestartFindsWhatWasHeld) {
   const Row now = row_at(0.6, 0.01);
   for (const std::size_t table : {0, 1})
     EXPECT_EQ(again.row(table, now, 0.5), samples.row(table, now, 0.5));
+  // A solid that has left has no row.
+  samples.hold({row_at(0.3, 0.01), {}, row_at(0, 0)});
+  again.resume(0.3, samples.text());
+  EXPECT_EQ(again.row(2, now, 0.5), samples.row(2, now, 0.5));
   again.resume(0.3, "none");
   EXPECT_EQ(again.text(), "none");
 }
