@@ -31,7 +31,7 @@ fsi::RunStatus decay() {
     return F *
            Vec3{std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0};
   };
-  fsi::Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu}, {});
+  fsi::Solver solver(mesh, {.rho = 1, .mu_f = mu}, {});
   solver.start([&](const Vec3& x) { return exact(x, 0); });
 
   // 4. the loop

@@ -23,8 +23,10 @@ fsi::RunStatus own_loop() {
   const int steps = options.integer("steps", 50, {.help = "number of steps", .min = 1});
   if (options.help()) return fsi::RunStatus::complete;
   options.check_unknown();
-  const fsi::Physics physics{.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = 0.1};
-  const fsi::shapes::Shape shape = fsi::shapes::translate(fsi::shapes::sphere(0.2), {0.6, 0.5, 0});
+  const fsi::Physics physics{.rho = 1, .mu_f = 0.01};
+  const fsi::Solid solid{.shape = fsi::shapes::translate(fsi::shapes::sphere(0.2), {0.6, 0.5, 0}),
+                         .G = 0.1,
+                         .mu = 0.01};
 
   // 2 mesh and boundary conditions
   const fsi::Mesh mesh = fsi::read_mesh({.file = file});
@@ -44,7 +46,7 @@ fsi::RunStatus own_loop() {
   const fsi::GradientStencil stencil(mesh, weights, {true, true});  // u is given on both patches
   flow::Projection projection(mesh, weights, conditions, fsi::Method::direct, 0);
   flow::Momentum momentum(mesh, weights, conditions, physics.rho, physics.mu_f);
-  fsi::Body disc(mesh, weights, {.shape = shape, .G = physics.G, .mu = physics.mu_s}, physics);
+  fsi::Body disc(mesh, weights, solid, physics);
   fsi::StrainByFlux by_flux(mesh);
   const fsi::FlowAround around{.u = u,
                                .phi = phi,
@@ -112,7 +114,7 @@ fsi::RunStatus own_loop() {
   // 5 the same by the library's own step
   fsi::Solver solver(mesh, physics, {.conditions = walls});
   solver.start([](const Vec3&) { return Vec3{}; });
-  solver.put_solid(shape);
+  solver.put_solid(solid);
   for (int n = 0; n < steps; ++n) solver.step(dt);
   Real apart = 0, fastest = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {

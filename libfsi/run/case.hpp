@@ -44,7 +44,7 @@ struct SolidSetup {
 /// A case as the user described it.
 struct Case {
   MeshOptions mesh;                ///< file, periods and division among ranks
-  Physics physics;                 ///< density, viscosity, gravity
+  Physics physics;                 ///< the fluid's density and viscosity, gravity
   std::string fluid;               ///< in words, with what is there by default
   FlowSetup flow;                  ///< without conditions
   std::vector<SolidSetup> solids;  ///< in the order of their names

@@ -1,5 +1,5 @@
 #pragma once
-// What fluid and solids are made of.
+// What the fluid is made of, gravity, and a solid as it is put in.
 
 #include <string>
 
@@ -8,15 +8,11 @@
 
 namespace fsi {
 
-/// Material constants, in consistent units; those of the solid where a scene has one.
+/// The fluid and gravity, in consistent units; what a solid is made of stands in its `Solid`.
 struct Physics {
-  Real rho = 1;               ///< density of the fluid, and of a solid without one of its own
-  Real mu_f = 0.01;           ///< dynamic viscosity of the fluid
-  Real mu_s = 0.01;           ///< of the solid
-  Real G = 0;                 ///< shear modulus of the solid
-  Vec3 solid_acceleration{};  ///< of a body force that acts on the solid alone
-  solid::Law law{};           ///< of the solid's elastic stress
-  Vec3 gravity{};             ///< acceleration of fluid and solids; p goes without rho gravity . x
+  Real rho = 1;      ///< density of the fluid, and of a solid without one of its own
+  Real mu_f = 0.01;  ///< dynamic viscosity of the fluid
+  Vec3 gravity{};    ///< acceleration of fluid and solids; p goes without rho gravity . x
 };
 
 /// How the deformation of a solid is tracked.

@@ -42,15 +42,6 @@ void require_place(const Body& body, const std::string& by_default, const std::d
 
 }  // namespace
 
-void Solver::put_solid(const shapes::Shape& shape, KinematicsKind kind) {
-  put_solid({.shape = shape,
-             .G = physics_.G,
-             .mu = physics_.mu_s,
-             .kinematics = kind,
-             .acceleration = physics_.solid_acceleration,
-             .law = physics_.law});
-}
-
 void Solver::require_bodies() const {
   if (bodies_.size() == fractions_.size()) return;  // no sentence is made in every step
   throw Error(ErrorKind::input,

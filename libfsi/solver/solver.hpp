@@ -85,9 +85,6 @@ class Solver {
   /// (Output). No solid is taken out again. Errors: Error{input} where it is empty, leaves the
   /// mesh, overlaps another or has another's name; the solver is then as before.
   void put_solid(const Solid& solid);
-  /// The same of G, mu_s and the acceleration of `Physics`.
-  void put_solid(const shapes::Shape& shape,
-                 KinematicsKind kind = KinematicsKind::log_conformation);
 
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
   /// Error{input} where dt is not above 0 and finite, or a body was taken out of `bodies`; nothing

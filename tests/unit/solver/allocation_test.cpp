@@ -57,11 +57,15 @@ constexpr std::int64_t few = 400;
 void expect_none(const Scene& scene) {
   const Mesh mesh = test::read_box({.n = {24, 24, 0}, .simplex = scene.simplex});
   Solver solver(
-      mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = 1, .solid_acceleration = {0, -1, 0}},
+      mesh, {.rho = 1, .mu_f = 0.01},
       {.conditions = {
            {"top", Wall{{1, 0, 0}}}, {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
-  solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.55, 0}), scene.kinematics);
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.6, 0.55, 0}),
+                    .G = 1,
+                    .mu = scene.mu_s,
+                    .kinematics = scene.kinematics,
+                    .acceleration = {0, -1, 0}});
   io::Snapshot all;
   solver.list(all);
   Backup start(all, mesh);

@@ -32,12 +32,14 @@ Speeds speeds(const Still& still) {
                                     .length = {4.0 / n, 1, 1},
                                     .simplex = still.simplex,
                                     .periodic = {"left", "right"}});
-  Solver solver(
-      mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = still.G, .solid_acceleration = {0, -g, 0}},
-      {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01},
+                {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
-  solver.put_solid(shapes::translate(shapes::box({200, 0.4, 200}), {0, still.middle, 0}),
-                   still.kinematics);
+  solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.4, 200}), {0, still.middle, 0}),
+                    .G = still.G,
+                    .mu = 0.01,
+                    .kinematics = still.kinematics,
+                    .acceleration = {0, -g, 0}});
   constexpr Real dt = 1e-3;
   constexpr int steps = 20;
   for (int i = 0; i < steps; ++i) solver.step(dt);

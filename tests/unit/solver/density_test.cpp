@@ -47,7 +47,7 @@ Speeds still(const Column& column) {
                     .periodic = {"left", "right"}};
   if (column.depth > 0) box.periodic.insert(box.periodic.end(), {"back", "front"});
   const Mesh mesh = test::read_box(box);
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .gravity = {0, -1, 0}},
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .gravity = {0, -1, 0}},
                 {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
   solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.4, 200}), {0, column.middle, 0}),
@@ -124,7 +124,7 @@ Speeds falling(bool simplex, Real ratio, bool held) {
                                     .periodic = {"left", "right", "bottom", "top"}});
   FlowSetup setup{.axis = {0, 1, 0}};
   if (held) setup.mean_velocity = 1;
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .gravity = {0, -1, 0}}, setup);
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .gravity = {0, -1, 0}}, setup);
   solver.start([&](const Vec3&) { return held ? Vec3{0, 1, 0} : Vec3{}; });
   solver.put_solid({.shape = shapes::translate(shapes::box({200, part, 200}), {0, 0.53, 0}),
                     .G = 1,

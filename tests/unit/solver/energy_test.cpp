@@ -152,7 +152,7 @@ TEST(EnergyBalance, ThePlatesDoWhatViscosityTakes) {
 TEST(EnergyBalance, ALevelThatPulsesDoesNoWork) {
   const Mesh mesh = test::read_box({.n = {16, 8, 0}, .length = {2, 1, 1}, .simplex = true});
   const OfTime pulse([](Real t) { return 1e4 + 2e3 * std::sin(2 * std::numbers::pi * t); });
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
                 {.conditions = {{"left", FlowRate{.rate = 0.5}},
                                 {"right", Opening{pulse}},
                                 {"bottom", Wall{}},
@@ -198,11 +198,12 @@ TEST(EnergyBalance, ToldOfAStiffSolidInTooLongSteps) {
   const auto made = [](Real G, Real longer) {
     const Mesh mesh = test::read_box({.n = {32, 32, 0}});
     Solver solver(
-        mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = G},
+        mesh, {.rho = 1, .mu_f = 0.01},
         {.conditions = {
              {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{{1, 0, 0}}}}});
     solver.start([](const Vec3&) { return Vec3{}; });
-    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.5, 0}));
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.2), {0.6, 0.5, 0}), .G = G, .mu = 0.01});
     EnergyBalance energy(solver);
     for (int i = 0; i < 150; ++i) {
       const Real dt = std::min(

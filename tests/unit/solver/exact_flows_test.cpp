@@ -20,7 +20,7 @@ using test::errors;
 Errors taylor_green(Index n, int steps) {
   const Mesh mesh = test::box_mesh({.n = {n, n, 0}, .periodic = {true, true, false}});
   constexpr Real nu = 0.01, k = 2 * pi, t_end = 0.5;
-  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu}, {});
+  Solver solver(mesh, {.rho = 1, .mu_f = nu}, {});
   const auto u = [](const Vec3& x, Real t) {
     const Real F = std::exp(-2 * nu * k * k * t);
     return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * F,
@@ -62,7 +62,7 @@ Errors kovasznay(Index n, Real courant = 0.2) {
   const Mesh mesh = test::box_mesh({.n = {n, n, 0}});
   const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
   Solver solver(
-      mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+      mesh, {.rho = 1, .mu_f = nu},
       {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
   solver.start(u);
   const Real dt = courant / n;
@@ -91,7 +91,7 @@ TEST(ExactFlows, KovasznayOnQuadsIsTheSameWithAnyStep) {
 TEST(ExactFlows, AChannelHoldsItsMeanAndFindsPoiseuille) {
   const Index n = 16;
   const Mesh mesh = test::box_mesh({.n = {4, n, 0}, .periodic = {true, false, false}});
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
                 {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}, .mean_velocity = 0.5});
   solver.start([](const Vec3&) { return Vec3{0.5, 0, 0}; });
   for (int i = 0; i < 400; ++i) {

@@ -24,11 +24,14 @@ struct Scene {
 
 struct Cavity {
   Cavity(const Mesh& mesh, const Scene& scene)
-      : solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = scene.G, .law = scene.law},
-               {.conditions = conditions(mesh)}) {
+      : solver(mesh, {.rho = 1, .mu_f = 0.01}, {.conditions = conditions(mesh)}) {
     solver.start([](const Vec3&) { return Vec3{}; });
-    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.6, mesh.dim == 2 ? 0.0 : 0.5}),
-                     scene.kinematics);
+    const Vec3 centre{0.6, 0.6, mesh.dim == 2 ? 0.0 : 0.5};
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), centre),
+                      .G = scene.G,
+                      .mu = scene.mu_s,
+                      .kinematics = scene.kinematics,
+                      .law = scene.law});
   }
   static Conditions conditions(const Mesh& mesh) {
     Conditions walls;
@@ -165,11 +168,14 @@ TEST(LawInStep, ShearedSlabBearsTheFlowAboveIt) {
     for (const Real mu_s : {1.0, 5.0, 0.3}) {
       const SymTensor T = dev(law.at(B).T);
       const Real G = 1 / T.xy;  // traction 1, mu_f = 1
-      Solver solver(mesh, {.rho = 1, .mu_f = 1, .mu_s = mu_s, .G = G, .law = law},
+      Solver solver(mesh, {.rho = 1, .mu_f = 1},
                     {.conditions = {{"top", Wall{{2 - y_0, 0, 0}}}, {"bottom", Wall{}}}});
       const auto u = [&](const Vec3& x) { return Vec3{std::max(x.y - y_0, 0.0), 0, 0}; };
       solver.start(u);
-      solver.put_solid(shapes::translate(shapes::box({40, y_0, 40}), {0, y_0 / 2, 0}));
+      solver.put_solid({.shape = shapes::translate(shapes::box({40, y_0, 40}), {0, y_0 / 2, 0}),
+                        .G = G,
+                        .mu = mu_s,
+                        .law = law});
       solver.body()->set_B([&](const Vec3&) { return B; });
       CellField<Real>& p = solver.state().p;
       for (Index c = 0; c < mesh.n_cells; ++c) p[c] = G * T.yy * solver.body()->alpha[c];

@@ -23,7 +23,7 @@ TEST(Leaving, WhatLeftIsCountedAndNothingStaysBehind) {
                             KinematicsKind::reference_map}) {
       const Mesh mesh =
           test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}, .simplex = triangles});
-      Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 1},
+      Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
                     {.conditions = {{"left", FixedVelocity{[](const Vec3&, Real) {
                                        return Vec3{1, 0, 0};
                                      }}},
@@ -31,7 +31,10 @@ TEST(Leaving, WhatLeftIsCountedAndNothingStaysBehind) {
                                     {"bottom", Slip{}},
                                     {"top", Slip{}}}});
       solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
-      solver.put_solid(shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}), kind);
+      solver.put_solid({.shape = shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}),
+                        .G = 1,
+                        .mu = 0.1,
+                        .kinematics = kind});
       const Real start = volume(solver);
       int steps = 0;
       for (; steps < 400 && solver.body()->gone == 0; ++steps) {
@@ -54,11 +57,12 @@ TEST(Leaving, AResidueWithoutAHalfFullCellLeavesWithTheRest) {
     const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
     const FixedVelocity wind{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
     Solver solver(
-        mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 1},
+        mesh, {.rho = 1, .mu_f = 0.1},
         {.conditions = {
              {"left", wind}, {"right", Opening{0}}, {"bottom", Slip{}}, {"top", Slip{}}}});
     solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
-    solver.put_solid(shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}));
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}), .G = 1, .mu = 0.1});
     Body& body = *solver.body();
     for (int i = 0; i < 30; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
     ASSERT_GT(body.volume_out, 0);
@@ -85,9 +89,10 @@ TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
     const Wall lid{{1, 0, 0}}, other{{1, 0, 0}};
     Conditions conditions{{"left", Opening{0}}, {"right", Opening{0}}, {"top", lid}};
     conditions["bottom"] = half ? Condition(Slip{}) : Condition(other);
-    Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1, .G = 2}, {.conditions = conditions});
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = conditions});
     solver.start([](const Vec3&) { return Vec3{}; });
-    solver.put_solid(shapes::translate(shapes::sphere(0.3), {0.7, middle, 0}));
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.3), {0.7, middle, 0}), .G = 2, .mu = 0.1});
     for (int i = 0; i < 100; ++i) solver.step(0.01);
     std::array<Sum, 3> sums;
     for (Index c = 0; c < mesh.n_owned; ++c) {
@@ -104,12 +109,15 @@ TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
 TEST(Mirror, ASolidMayTouchAWallButNotStickOut) {
   const Mesh mesh = test::read_box({.n = {16, 16, 0}, .length = {1, 1, 1}});
   Conditions walls{{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}};
-  Solver solver(mesh, {.G = 1}, {.conditions = walls});
+  Solver solver(mesh, {}, {.conditions = walls});
   solver.start([](const Vec3&) { return Vec3{}; });
-  EXPECT_NO_THROW(solver.put_solid(shapes::translate(shapes::sphere(0.25), {0.5, 0.25, 0})));
-  Solver other(mesh, {.G = 1}, {.conditions = walls});
+  EXPECT_NO_THROW(
+      solver.put_solid({.shape = shapes::translate(shapes::sphere(0.25), {0.5, 0.25, 0}), .G = 1}));
+  Solver other(mesh, {}, {.conditions = walls});
   other.start([](const Vec3&) { return Vec3{}; });
-  EXPECT_THROW(other.put_solid(shapes::translate(shapes::sphere(0.25), {0.5, 0.24, 0})), Error);
+  EXPECT_THROW(
+      other.put_solid({.shape = shapes::translate(shapes::sphere(0.25), {0.5, 0.24, 0}), .G = 1}),
+      Error);
 }
 
 }  // namespace

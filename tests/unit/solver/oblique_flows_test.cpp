@@ -29,7 +29,7 @@ Errors kovasznay(const Mesh& mesh, Real dt) {
   const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
   const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
   Solver solver(
-      mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+      mesh, {.rho = 1, .mu_f = nu},
       {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
   solver.start(u);
   for (int i = 0; i * dt < 3; ++i) solver.step(dt);
@@ -67,7 +67,7 @@ Errors taylor_green(Index n, Real t_end, int steps) {
   const Mesh mesh = test::read_box(
       {.n = {n, n, 0}, .simplex = true, .periodic = {"left", "right", "bottom", "top"}});
   constexpr Real nu = 0.01, k = 2 * pi;
-  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu}, {});
+  Solver solver(mesh, {.rho = 1, .mu_f = nu}, {});
   const auto decay = [](Real t) { return std::exp(-2 * nu * k * k * t); };
   const auto u = [&](const Vec3& x, Real t) {
     return decay(t) *

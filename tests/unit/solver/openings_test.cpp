@@ -96,7 +96,7 @@ TEST(Openings, FlowRatesWithoutAWayOutAreRefused) {
 TEST(Openings, AResistanceBeyondTheOutletStandsInSeries) {
   const Mesh mesh = channel(16);
   const Real mu = 0.5, R = 30;
-  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+  Solver solver(mesh, {.rho = 1, .mu_f = mu},
                 {.conditions = {{"left", Opening{1}},
                                 {"right", Opening{.pressure = 0.25, .load = {.proximal = R}}},
                                 {"bottom", Wall{}},
@@ -116,7 +116,7 @@ Real windkessel_error(Real dt) {
   const Load load{.proximal = 2, .distal = 10, .capacitance = 0.05, .stored = 1};
   const auto Q = [](Real t) { return std::pow(std::sin(std::numbers::pi * t), 2); };
   const Mesh mesh = channel(4);
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
                 {.conditions = {{"left", FlowRate{Q}},
                                 {"right", Opening{.pressure = 0, .load = load}},
                                 {"bottom", Wall{}},
@@ -162,7 +162,7 @@ TEST(Openings, APressureFollowsItsFlowRateAtAnyViscosity) {
       Opening outlet =
           loaded ? Opening{.pressure = 0, .load = {.proximal = 20 * R}} : Opening{p_out};
       Solver solver(
-          mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+          mesh, {.rho = 1, .mu_f = mu},
           {.conditions = {
                {"left", FlowRate{Q}}, {"right", outlet}, {"bottom", Wall{}}, {"top", Wall{}}}});
       solver.start([](const Vec3&) { return Vec3{}; });
@@ -184,7 +184,7 @@ TEST(Openings, APressureFollowsItsFlowRateAtAnyViscosity) {
 // Between sides that slip a flow has no friction, and the increments may not add up to growth.
 TEST(Openings, APressureBetweenSidesThatSlipDoesNotGrow) {
   const Mesh mesh = channel(8);
-  Solver solver(mesh, {.rho = 1, .mu_f = 1e5, .mu_s = 1e5},
+  Solver solver(mesh, {.rho = 1, .mu_f = 1e5},
                 {.conditions = {{"left", FlowRate{[](Real t) { return 1 + 0.5 * std::sin(t); },
                                                   InflowProfile::plug}},
                                 {"right", Opening{0}},
@@ -208,7 +208,7 @@ TEST(Openings, TheLevelOfThePressureMovesNothing) {
   for (const bool triangles : {false, true}) {
     const Mesh mesh = channel(8, triangles);
     const auto run = [&](Real level, Real drop) {
-      Solver solver(mesh, {.rho = 1, .mu_f = 0.1, .mu_s = 0.1},
+      Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
                     {.conditions = {{"left", Opening{level + drop}},
                                     {"right", Opening{level}},
                                     {"bottom", Wall{}},
@@ -226,7 +226,7 @@ TEST(Openings, TheLevelOfThePressureMovesNothing) {
 TEST(Openings, ABodyForceDrivesLikeAPressure) {
   const Mesh mesh = channel(16, true);
   const Real mu = 0.5;
-  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+  Solver solver(mesh, {.rho = 1, .mu_f = mu},
                 {.conditions = {{"left", Opening{0}},
                                 {"right", Opening{0}},
                                 {"bottom", Wall{}},

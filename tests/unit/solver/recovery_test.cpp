@@ -34,11 +34,14 @@ Mesh mesh_of(const Scene& scene) {
 
 struct Trial {
   Trial(const Mesh& mesh, const Scene& scene)
-      : solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = scene.mu_s, .G = scene.G},
+      : solver(mesh, {.rho = 1, .mu_f = 0.01},
                {.conditions = {
                     {"top", scene.lid}, {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}}}) {
     solver.start([](const Vec3&) { return Vec3{}; });
-    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.6, 0.55, 0}), scene.kinematics);
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.6, 0.55, 0}),
+                      .G = scene.G,
+                      .mu = scene.mu_s,
+                      .kinematics = scene.kinematics});
   }
   void steps(int count, Real dt) {
     for (int i = 0; i < count; ++i) ASSERT_EQ(solver.advance(dt), dt);
@@ -164,13 +167,14 @@ TEST(Recovery, NamesAStiffSolid) {
 /// everywhere, from some time on.
 struct Drawn {
   Drawn(const Mesh& mesh, Real onset)
-      : solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = 1e-6},
+      : solver(mesh, {.rho = 1, .mu_f = 0.01},
                {.conditions = {{"top", wall(onset)},
                                {"left", wall(onset)},
                                {"right", wall(onset)},
                                {"bottom", wall(onset)}}}) {
     solver.start([&](const Vec3& x) { return wall(onset).u(x, 0); });
-    solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}));
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1e-6, .mu = 0.01});
     solver.body()->set_B(
         [](const Vec3&) { return SymTensor{std::exp(-8), 0, 0, std::exp(8), 0, 1}; });
   }
@@ -255,10 +259,10 @@ TEST(Recovery, NamesASolidThatIsCarriedTooFar) {
   const Scene scene{.G = 1e-6};
   const Mesh mesh = test::read_box({.n = {n, n, 0}, .periodic = {"left", "right"}});
   const FixedVelocity wall{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = scene.G},
-                {.conditions = {{"top", wall}, {"bottom", wall}}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01}, {.conditions = {{"top", wall}, {"bottom", wall}}});
   solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
-  solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}));
+  solver.put_solid(
+      {.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = scene.G, .mu = 0.01});
   const Real cell = 1.0 / n;
   ASSERT_EQ(solver.advance(0.9 * cell), 0.9 * cell) << solver.report().failure;
   EXPECT_NEAR(solver.carried_dt(), 1.1 * cell, 1e-6);

@@ -17,7 +17,7 @@ namespace {
 Real left_of_a_shake(Real G, Real mu, bool triangles) {
   const Mesh mesh = test::read_box({.n = {32, 32, 0}, .simplex = triangles});
   Solver solver(
-      mesh, {.rho = 1, .mu_f = mu, .mu_s = mu, .G = G},
+      mesh, {.rho = 1, .mu_f = mu},
       {.conditions = {{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}}});
   // of all wavelengths
   solver.start([](const Vec3& x) {

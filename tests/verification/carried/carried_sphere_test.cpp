@@ -26,7 +26,7 @@ Errors carried(const std::string& name, const std::vector<std::string>& periodic
   const Mesh mesh =
       read_mesh({.file = std::string(FSI_MESHES) + "/" + name + ".msh", .periodic = periodic});
   const Vec3 U{1, 0.31, 0.17}, start{1.23, 1.27, 1.21};
-  Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .mu_s = 0.01, .G = 10}, {.conditions = {}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01}, {.conditions = {}});
   solver.start([&](const Vec3&) { return U; });
   solver.put_solid({.shape = shapes::translate(shapes::sphere(0.5), start), .G = 10, .mu = 0.01});
   const Body& body = solver.bodies().front();

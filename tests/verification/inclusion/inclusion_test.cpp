@@ -47,10 +47,11 @@ Errors errors(const Exact& exact, Index n) {
   constexpr Real scale = 1e-3, rho = 1e-3, dt = 1e-3;
   const Mesh mesh = test::read_box({.n = {4 * n, 4 * n, 0}, .length = {4, 4, 1}, .periodic = {}});
   const FixedVelocity far{[&](const Vec3& x, Real) { return scale * exact.u(x - centre); }};
-  Solver solver(mesh, {.rho = rho, .mu_f = 1, .mu_s = exact.ratio, .G = 1e-9},
+  Solver solver(mesh, {.rho = rho, .mu_f = 1},
                 {.conditions = {{"bottom", far}, {"top", far}, {"left", far}, {"right", far}}});
   solver.start([&](const Vec3& x) { return scale * exact.u(x - centre); });
-  solver.put_solid(shapes::translate(shapes::sphere(1), centre));
+  solver.put_solid(
+      {.shape = shapes::translate(shapes::sphere(1), centre), .G = 1e-9, .mu = exact.ratio});
   for (int step = 0; step < 40; ++step) solver.step(dt);
   const CellField<Tensor>& L = solver.velocity_gradient();
   Sum square, volume, strain, middle;

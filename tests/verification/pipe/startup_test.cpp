@@ -67,7 +67,7 @@ Result startup(const std::string& name, Real t_end, int steps) {
   options.file = std::string(FSI_MESHES) + "/" + name + ".msh";
   options.periodic = {"inlet", "outlet"};
   const Mesh mesh = read_mesh(options);
-  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+  Solver solver(mesh, {.rho = 1, .mu_f = nu},
                 {.conditions = {{"wall", Wall{}}}, .mean_velocity = mean});
   solver.start([](const Vec3&) { return Vec3{mean, 0, 0}; });
   for (int i = 0; i < steps; ++i) {

@@ -33,7 +33,7 @@ Real mean_pressure(const Solver& solver, const Patch& patch) {
 
 Split steady(const Mesh& mesh, const Condition& left, const Condition& right) {
   Solver solver(
-      mesh, {.rho = 0.05, .mu_f = mu, .mu_s = mu},
+      mesh, {.rho = 0.05, .mu_f = mu},
       {.conditions = {{"inlet", FlowRate{1}}, {"left", left}, {"right", right}, {"wall", Wall{}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
   Real net = 0;

@@ -48,7 +48,7 @@ struct Womersley {
 
 /// Velocity after one period, by that many steps, at every cell of one rank.
 CellField<Vec3> after_a_period(const Mesh& mesh, const Womersley& exact, int steps) {
-  Solver solver(mesh, {.rho = 1, .mu_f = exact.mu, .mu_s = exact.mu},
+  Solver solver(mesh, {.rho = 1, .mu_f = exact.mu},
                 {.conditions = {{"wall", Wall{}},
                                 {"inlet", Opening{[](Real t) { return std::cos(w * t); }}},
                                 {"outlet", Opening{0}}}});

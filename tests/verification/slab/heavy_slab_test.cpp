@@ -64,7 +64,7 @@ Result run(Real ratio, Index n, int steps, bool triangles) {
                                     .periodic = {"left", "right"}});
   const Exact exact(ratio);
   Solver solver(
-      mesh, {.mu_f = mu, .mu_s = mu},
+      mesh, {.mu_f = mu},
       {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}, .body_force = [](const Vec3&, Real t) {
          return Vec3{std::cos(w * t), 0, 0};
        }});

@@ -139,11 +139,14 @@ Errors errors(const Setup& setup, Index n, int steps_a_period) {
     return Vec3{(x.y > 1 ? 1 : -1) * std::sin(w * t), 0, 0};
   }};
   Solver solver(
-      mesh, {.rho = 1, .mu_f = layers.mu_f, .mu_s = layers.mu_s, .G = layers.G},
+      mesh, {.rho = 1, .mu_f = layers.mu_f},
       {.conditions = {{"bottom", setup.half ? Condition{Wall{}} : walls}, {"top", walls}}});
   solver.start([&](const Vec3& x) { return Vec3{exact.u(x.y - 1, 0), 0, 0}; });
   const Real middle = setup.half ? 1.25 : 1, height = setup.half ? 0.5 : 1;
-  solver.put_solid(shapes::translate(shapes::box({200, height, 200}), {0, middle, 0}), setup.kind);
+  solver.put_solid({.shape = shapes::translate(shapes::box({200, height, 200}), {0, middle, 0}),
+                    .G = layers.G,
+                    .mu = layers.mu_s,
+                    .kinematics = setup.kind});
   deform(*solver.body(), exact);
   Real u = 0, B = 0, scale = 0;
   for (int step = 0; step < 2 * steps_a_period; ++step) {

@@ -70,7 +70,7 @@ Real axis_pressure(const Solver& solver, Real h, Real at) {
 Real flow_error(int n, int throat, Real t_end) {
   const Mesh mesh = mesh_of(n, throat);
   Solver solver(
-      mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+      mesh, {.rho = 1, .mu_f = nu},
       {.conditions = {{"wall", Wall{}}, {"inlet", Opening{pressure}}, {"outlet", Opening{0}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
   run(solver, t_end - 1);
@@ -94,7 +94,7 @@ Real drop_error(int n, int throat, Real t_end) {
     const Real r2 = (x.y - 0.5) * (x.y - 0.5) + (x.z - 0.5) * (x.z - 0.5);
     return Vec3{2 * mean * std::max(0.0, 1 - 4 * r2), 0, 0};
   }};
-  Solver solver(mesh, {.rho = 1, .mu_f = nu, .mu_s = nu},
+  Solver solver(mesh, {.rho = 1, .mu_f = nu},
                 {.conditions = {{"wall", Wall{}}, {"inlet", parabola}, {"outlet", Opening{0}}}});
   solver.start([mean](const Vec3&) { return Vec3{mean, 0, 0}; });
   const auto drop = [&] {

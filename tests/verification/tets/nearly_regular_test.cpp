@@ -42,7 +42,7 @@ std::vector<Real> profile(Real off, Real dt) {
   };
   const Mesh mesh = test::read_box(box);
   const FixedVelocity sliding{[](const Vec3&, Real t) { return Vec3{std::sin(w * t), 0, 0}; }};
-  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu},
+  Solver solver(mesh, {.rho = 1, .mu_f = mu},
                 {.conditions = {{"bottom", sliding}, {"top", Wall{}}}});
   solver.start([](const Vec3& x) { return Vec3{layer(x.y, 0), 0, 0}; });
   for (int step = 0; step < static_cast<int>(std::lround(1 / dt)); ++step) solver.step(dt);

@@ -55,7 +55,7 @@ Errors errors(const Solver& solver, Real dt) {
 
 Errors run_abc(const std::string& name) {
   const Mesh mesh = read_mesh({.file = file(name), .periodic = {}});
-  Solver solver(mesh, {.rho = 1, .mu_f = mu, .mu_s = mu}, {});
+  Solver solver(mesh, {.rho = 1, .mu_f = mu}, {});
   solver.start([](const Vec3& x) { return abc(x, 0); });
   // All steps alike: a short last one would show in its pressure.
   constexpr Real end = 0.25;
@@ -90,8 +90,7 @@ TEST(Tets, EnergyNeverGrowsWithoutViscosity) {
   for (const std::string name : {"tets8", "slivers8"})
     for (const std::string& scheme : flow::convection_names()) {
       const Mesh mesh = read_mesh({.file = file(name), .periodic = {}});
-      Solver solver(mesh, {.rho = 1, .mu_f = 1e-300, .mu_s = 1e-300},
-                    {.convection = flow::convection_of(scheme)});
+      Solver solver(mesh, {.rho = 1, .mu_f = 1e-300}, {.convection = flow::convection_of(scheme)});
       solver.start([](const Vec3& x) {
         constexpr Real k = 2 * pi;
         return Vec3{std::sin(k * x.x) * std::cos(k * x.y) * std::cos(k * x.z),
@@ -120,7 +119,7 @@ struct Balance {
 Balance run_vortex(const Mesh& mesh, Real k, Real end, Real courant) {
   Conditions conditions;
   for (const Patch& patch : mesh.patches) conditions[patch.name] = Slip{};
-  Solver solver(mesh, {.rho = 1, .mu_f = 1e-300, .mu_s = 1e-300},
+  Solver solver(mesh, {.rho = 1, .mu_f = 1e-300},
                 {.conditions = conditions,
                  .convection = flow::Convection::symmetric,
                  .orthogonal_projection = true});
@@ -160,7 +159,8 @@ TEST(Tets, OrthogonalProjectionIsForAFluidAloneAndNoPressureGiven) {
   Conditions conditions;
   for (const std::string& side : all_sides) conditions[side] = Wall{};
   Solver solver(mesh, {}, {.conditions = conditions, .orthogonal_projection = true});
-  EXPECT_THROW(solver.put_solid(shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0.5})), Error);
+  EXPECT_THROW(solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0.5})}),
+               Error);
   conditions["right"] = Opening{};
   EXPECT_THROW(Solver(mesh, {}, {.conditions = conditions, .orthogonal_projection = true}), Error);
 }
@@ -171,7 +171,7 @@ TEST(Tets, ALidOverSliversRejectsNoStep) {
   Conditions conditions;
   for (const std::string& side : all_sides) conditions[side] = Wall{};
   conditions["top"] = Wall{{1, 0, 0}};
-  Solver solver(mesh, {.rho = 1, .mu_f = 1e-3, .mu_s = 1e-3}, {.conditions = conditions});
+  Solver solver(mesh, {.rho = 1, .mu_f = 1e-3}, {.conditions = conditions});
   solver.start([](const Vec3&) { return Vec3{}; });
   while (solver.state().t < 10)
     solver.step(std::min(solver.advective_dt(0.5), solver.boundary_dt(0.5)));
