@@ -9,6 +9,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -72,12 +73,16 @@ std::string text_of(const std::string& file) {
 /// Collective. Errors: Error{input} where a file cannot be read, or holds what PETSc would take
 /// silently.
 void check_file(const OptionsFile& file) {
-  if (file.name.find_first_of("$:") != std::string::npos) return;  // PETSc knows what these mean
-  const std::string text = text_of(file.name);
-  if (!file.yaml) return;
+  if (file.name.find('$') != std::string::npos) return;  // a folder that PETSc knows
+  // PETSc takes the ending ":yaml" for the kind of the file, not for a part of its name.
+  constexpr std::string_view kind = ":yaml";
+  const bool told = !file.yaml && file.name.ends_with(kind);
+  const std::string name = told ? file.name.substr(0, file.name.size() - kind.size()) : file.name;
+  const std::string text = text_of(name);
+  if (!file.yaml && !told) return;
   const std::string wrong = yaml_fault(text), twice = repeated_key(text);
-  require(wrong.empty(), "options file \"" + file.name + "\" is not valid YAML: " + wrong);
-  require(twice.empty(), "options file \"" + file.name + "\" gives " + twice + " twice");
+  require(wrong.empty(), "options file \"" + name + "\" is not valid YAML: " + wrong);
+  require(twice.empty(), "options file \"" + name + "\" gives " + twice + " twice");
 }
 
 /// Says that a petscrc of the folder takes part, which nobody sees on the command line.
@@ -115,7 +120,7 @@ void start_petsc(Arguments& arguments) {
   std::string names;
   for (const OptionsFile& file : files) names += (names.empty() ? "\"" : ", \"") + file.name + "\"";
   require(code == 0,
-          (names.empty() ? "the options" : "the options, with those of the file " + names) +
+          (names.empty() ? "the options" : "the options, with those of the file " + names + ",") +
               " cannot be read: " + petsc_text(code));
   FSI_PETSC(PetscPopSignalHandler());
   tell_of_petscrc();

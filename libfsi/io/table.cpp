@@ -23,12 +23,11 @@ void require_names(const std::string& file, const std::vector<std::string>& colu
     std::string shown = name;
     std::ranges::replace_if(
         shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-    require(
-        !name.empty() && !blank(name.front()) && !blank(name.back()) &&
-            std::ranges::none_of(name, breaks),
-        "\"" + shown + "\" cannot be the name of a column of \"" + file +
-            "\": a name has at least one letter, no blank at its ends, and no comma, quote or " +
-            "line break");
+    require(!name.empty() && !blank(name.front()) && !blank(name.back()) &&
+                std::ranges::none_of(name, breaks),
+            "\"" + shown + "\" cannot be the name of a column of \"" + file +
+                "\": a name is not empty and has no blank at its ends, and no comma, quote or " +
+                "line break");
     require(std::ranges::count(columns, name) == 1, "\"" + file + "\" would have two columns \"" +
                                                         name +
                                                         "\": rename the one that the driver adds");

@@ -182,6 +182,9 @@ void Output::open_tables() {
 /// Tables, fields and checkpoints are of the solids that were there at the start.
 void Output::require_same_solids() const {
   const std::size_t now = solver_.bodies().size(), before = records_.size();
+  require(now >= before,
+          "a solid was taken out of the solver while this Output exists: solids are "
+          "put in by put_solid, and none is taken out");
   require(now == before,
           "the solver has " + std::to_string(now) + " solids, but " + std::to_string(before) +
               " when this Output was made: put all of them into the solver before making the " +

@@ -73,6 +73,10 @@ class SolidRecord {
 /// B of every cell: the unit tensor outside the solid.
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 
+/// Collective. Area (length in 2-D) of a solid's surface in the fluid: that of the planes in its
+/// cells. An isosurface of alpha would round a small body off.
+Real surface_area(const Body& body);
+
 /// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
 Real elastic_energy(const Body& body);
 /// Collective. That of the strain that the map to the undeformed solid tells; 0

@@ -184,10 +184,10 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
   }
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
   Vec3 way = courant * grad_J;
-  if (beside_psi_) {
-    // No stress answers to J. Where a lasting load holds the solid in its place, the normal
-    // velocity that the outermost cells keep would add to it without end. At the surface they move
-    // along its normal: what differs along it the fluxes tell.
+  if (beside_psi_ && snapshot.wave_speed > 0) {
+    // No stress answers to J. Under a lasting load the normal velocity that the outermost cells
+    // keep changes J without end. In cells with fluid among their vertex neighbours the map moves
+    // along the normal of the surface alone: along the surface the fluxes tell where it is.
     const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry());
     const Vec3 along = n == Vec3{} ? grad_J : dot(grad_J, n) * n;
     way += (dt * snapshot.wave_speed / h) * along;

@@ -21,8 +21,10 @@ namespace fsi::solid {
 /// by (det B)^(1/dim), the error of volume that the map's transport leaves. Of that error J - 1,
 /// J = det grad xi, each step takes some back: the map is moved along grad J,
 ///   xi <- xi + k h^2 grad xi . grad J,   k = 0.06 dt (rate of the cell's Courant number),
-/// which lets J diffuse out of the solid, J = 1 around it. Beside psi the wave's rate c / h adds to
-/// that of the flow. Nothing else relaxes: what returns to its place is undeformed again.
+/// which lets J diffuse out of the solid, J = 1 around it. Beside psi k is twice that in triangles
+/// and tetrahedra, and the rate of the wave, c / h, adds to that of the flow. The wave's part moves
+/// cells with fluid among their vertex neighbours along the normal of the surface alone. Nothing
+/// else relaxes: what returns to its place is undeformed again.
 class ReferenceMap {
  public:
   /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
