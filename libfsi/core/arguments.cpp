@@ -36,12 +36,13 @@ Arguments read_arguments(int argc, char** argv) {
       result.help = true;
     } else if (word == "-version" || word == "--version") {
       result.version = true;
-    } else if (i == 1 && is_yaml(word)) {
+    } else if (i > 0 && is_yaml(word) && result.file.empty() && !is_option(argv[i - 1])) {
       result.file = word;
-      result.words.insert(result.words.end(), {"-options_file_yaml", word});
-      // PETSc forgets the name; files that the case names may lie beside it.
+      // First of all, so that the words of the command line hold where both name an option. PETSc
+      // forgets the name; files that the case names may lie beside it.
       const std::string folder = std::filesystem::path(word).parent_path().string();
-      result.words.insert(result.words.end(), {"-case_folder", folder.empty() ? "." : folder});
+      result.words.insert(result.words.begin() + 1, {"-options_file_yaml", word, "-case_folder",
+                                                     folder.empty() ? "." : folder});
     } else {
       result.words.push_back(word);
     }

@@ -15,7 +15,8 @@ struct Arguments {
   bool version = false;  ///< -version was, likewise
 };
 
-/// A first argument that ends in .yaml or .yml is the options file.
+/// The first word that ends in .yaml or .yml and follows no option is the options file, wherever it
+/// stands. Of an option that it and the command line give, that of the command line holds.
 Arguments read_arguments(int argc, char** argv);
 
 /// The name of an option as PETSc compares it: without capitals, and with one dash where it has

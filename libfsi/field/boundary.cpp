@@ -1,10 +1,12 @@
 #include "libfsi/field/boundary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
 namespace {
@@ -45,20 +47,6 @@ void require_passive(const Load& load, const std::string& patch) {
           "patch \"" + patch + "\": a capacitance needs a distal resistance > 0 beside it");
 }
 
-/// Flow rates that leave no way out must cancel.
-void require_balance(const std::vector<Condition>& conditions) {
-  Real net = 0, size = 0;
-  for (const Condition& condition : conditions) {
-    if (fixes_pressure(condition) || std::holds_alternative<FixedVelocity>(condition)) return;
-    if (const auto* flow = std::get_if<FlowRate>(&condition))
-      net += flow->rate(0), size += std::abs(flow->rate(0));
-  }
-  constexpr Real tolerance = 1e-6;
-  require(std::abs(net) <= tolerance * size,
-          "the flow rates of all patches must add up to zero where no patch gives the pressure: "
-          "make one of them an opening");
-}
-
 void set_shapes(std::vector<Condition>& conditions, const Mesh& mesh) {
   std::vector<Patch> free;
   for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -78,6 +66,8 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
             "patch \"" + patch.name + "\" of the mesh has no boundary condition in this driver, " +
                 "which knows: " + names(conditions) + "; rename it or join it by -mesh_periodic");
     result.push_back(found->second);
+    const auto* fixed = std::get_if<FixedVelocity>(&found->second);
+    require(fixed == nullptr || fixed->u, "patch \"" + patch.name + "\" has an empty velocity");
     if (const auto* wall = std::get_if<Wall>(&found->second)) require_sliding(*wall, patch, mesh);
     if (const auto* opening = std::get_if<Opening>(&found->second))
       require_passive(opening->load, patch.name);
@@ -89,9 +79,39 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
                        (mesh.patches.empty() ? "of which all patches are periodic"
                                              : "which has: " + names(mesh)));
   }
-  require_balance(result);
   set_shapes(result, mesh);
+  BoundaryField<Vec3> u_b(mesh);
+  set_boundary_velocity(u_b, CellField<Vec3>(mesh), result, 0, mesh);
+  const std::string excess = imbalance(u_b, result, mesh);
+  require(excess.empty(), "at t = 0 " + excess);
   return result;
+}
+
+std::string imbalance(const BoundaryField<Vec3>& u_b, const std::vector<Condition>& conditions,
+                      const Mesh& mesh) {
+  if (std::ranges::any_of(conditions, fixes_pressure)) return "";
+  std::array<Sum, 3> sums;  // of the flow out, of its amount, of the speed over the faces
+  Real tolerance = 1e-6;    // of rates that are given as such
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (!prescribes_flow(conditions[i])) continue;
+    constexpr Real sampled = 0.02;  // of a velocity in the middle of faces
+    if (std::holds_alternative<FixedVelocity>(conditions[i])) tolerance = sampled;
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      const Vec3& u = u_b[f - mesh.n_internal];
+      const Real flux = dot(u, mesh.Sf[f]);
+      sums[0].add(flux), sums[1].add(std::abs(flux)), sums[2].add(norm(u) * norm(mesh.Sf[f]));
+    }
+  }
+  std::array<Real, 3> total{};
+  Sum::totals(total, sums);
+  // What slides along a curved patch passes its flat faces by a little.
+  constexpr Real sliding = 0.05;
+  const Real net = total[0], size = std::max(total[1], sliding * total[2]);
+  if (std::abs(net) <= tolerance * size) return "";
+  return print(
+      "%.4g flows in through the patches per unit of time and %.4g out, and no patch gives the "
+      "pressure: make one of them an opening, or let the two be equal",
+      (total[1] - net) / 2, (total[1] + net) / 2);
 }
 
 bool has_openings(const Conditions& conditions) {

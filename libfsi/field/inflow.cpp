@@ -139,6 +139,9 @@ void Section::multiply(std::vector<Real>& out, const std::vector<Real>& in) cons
 }
 
 bool Section::solve() {
+  // Without friction at any rim the flow is the same everywhere.
+  if (std::ranges::all_of(fixed_, [](char fixed) { return fixed == 0; }))
+    return std::ranges::fill(w_, 1.0), true;
   std::vector<Real> r(w_.size()), Kp(w_.size());
   for (const Element& e : elements_)
     for (int i = 0; i < e.n; ++i) r[e.nodes[i]] += e.size / e.n;

@@ -16,8 +16,9 @@ enum class InflowProfile { plug, parabola };
 /// patch
 ///   Lap w = -1,   w = 0 at its rim,
 /// by linear finite elements on its faces. The mean over a face is taken. free: patches without
-/// friction (planes of symmetry), along which the rim has no condition. Errors: Error{input} where
-/// the whole patch is one row of faces, so that no corner lies inside.
+/// friction (planes of symmetry), along which the rim has no condition; where all of the rim is
+/// along them, w = 1. Errors: Error{input} where the whole patch is one row of faces, so that no
+/// corner lies inside.
 std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,
                                const std::vector<Patch>& free);
 

@@ -1,8 +1,10 @@
 #include "libfsi/mesh/figures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -16,7 +18,9 @@ std::string better_cells(CellType type) {
   if (type == CellType::tet)
     return "let gmsh optimise the tets (Mesh.Optimize = 1; Mesh.OptimizeThreshold = 0.5; in a .geo "
            "file, or gmsh -optimize), or try the other algorithm (Mesh.Algorithm3D = 1 for "
-           "Delaunay, 10 for HXT)";
+           "Delaunay, 10 for HXT); what stays comes from the geometry: look there for surfaces "
+           "that "
+           "touch along a line, tiny faces and tiny edges";
   if (simplex(type))
     return "smooth the triangles (Mesh.Smoothing = 5;) or try the other algorithm (Mesh.Algorithm "
            "= 6 for Frontal-Delaunay)";
@@ -52,7 +56,27 @@ std::string print(const char* format, ...) {
 }
 
 MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls) {
-  return {quality(mesh), narrowest_gap(mesh, walls)};
+  return {quality(mesh), narrowest_gap(mesh, walls), extent(mesh)};
+}
+
+Box extent(const Mesh& mesh) {
+  constexpr Real far = std::numeric_limits<Real>::max();
+  Box box{{far, far, far}, {-far, -far, -far}};
+  for (const Vec3& point : mesh.points)
+    for (int i = 0; i < 3; ++i) {
+      box.low[i] = std::min(box.low[i], point[i]);
+      box.high[i] = std::max(box.high[i], point[i]);
+    }
+  for (int i = 0; i < 3; ++i) {
+    box.low[i] = global_min(box.low[i]);
+    box.high[i] = global_max(box.high[i]);
+  }
+  return box;
+}
+
+std::string text_of(const Box& box) {
+  return print("from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)", box.low.x, box.low.y, box.low.z,
+               box.high.x, box.high.y, box.high.z);
 }
 
 std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limits) {
@@ -77,7 +101,7 @@ std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limi
                gap.x.z),
          print("give gmsh a smaller size, %.2g or less, for all cells or for those there alone: a "
                "field of type Ball or Box with VIn = %.2g about that place as Background Field",
-               gap.width / 10, gap.width / 10)});
+               gap.width / 12, gap.width / 12)});
   return found;
 }
 
@@ -86,11 +110,11 @@ std::string summary(const std::string& file, const Mesh& mesh, const MeshFigures
   std::string line =
       "mesh " + file +
       print(
-          ": %lld cells in %d-D on %d %s; non-orthogonality max %.1f mean %.1f deg, skewness "
+          ": %lld cells in %d-D on %d %s, %s; non-orthogonality max %.1f mean %.1f deg, skewness "
           "max %.3f, volume ratio max %.1f, aspect ratio max %.1f",
           static_cast<long long>(mesh.n_global), mesh.dim, ranks(), ranks() == 1 ? "rank" : "ranks",
-          q.non_orthogonality.value, q.non_orthogonality_mean, q.skewness.value,
-          q.volume_ratio.value, q.aspect_ratio.value);
+          text_of(figures.box).c_str(), q.non_orthogonality.value, q.non_orthogonality_mean,
+          q.skewness.value, q.volume_ratio.value, q.aspect_ratio.value);
   if (figures.gap.cells > 0) line += print(", %.1f cells across", figures.gap.cells);
   return line;
 }

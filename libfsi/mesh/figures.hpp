@@ -19,10 +19,22 @@ struct MeshLimits {
   Real gap = 6;  ///< cells across the narrowest passage, at least
 };
 
+/// Corners of a box along the axes.
+struct Box {
+  Vec3 low, high;
+};
+
+/// Collective. The least box around the mesh.
+Box extent(const Mesh& mesh);
+
+/// "from (x, y, z) to (x, y, z)".
+std::string text_of(const Box& box);
+
 /// The figures of a mesh as a whole.
 struct MeshFigures {
   Quality quality;  ///< of the cells
   Gap gap;          ///< the narrowest passage
+  Box box;          ///< that holds all cells
 };
 
 /// Collective. walls: between which patches the gap is measured (mesh/gap.hpp); none: all.

@@ -70,8 +70,9 @@ void tell_of_loads(const Conditions& conditions) {
     std::printf("patch %s: resistance %g", name.c_str(), load.proximal);
     if (load.distal > 0)
       std::printf(
-          ", distal resistance %g, capacitance %g: its pressure follows the flow with the time "
-          "R_d C = %g, and R / (R + R_d) = %.3g of it at once",
+          ", distal resistance %g, capacitance %g: its pressure follows a change of the flow "
+          "with the time "
+          "R_d C = %g; the part R / (R + R_d) = %.3g of a change comes at once",
           load.distal, load.capacitance, load.distal * load.capacitance,
           load.proximal / (load.proximal + load.distal));
     std::printf("\n");
@@ -294,6 +295,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   std::vector<Real> edges;
   for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh, s), mesh));
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
+  const Real force = largest_force(setup.flow.body_force, mesh, setup.time.end);
   const Real share = ranks() > 1 && !setup.solids.empty() ? solid_share(mesh, setup.solids) : 0;
   if (rank() != 0) return;
   std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());
@@ -302,6 +304,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
+  if (setup.flow.body_force) std::printf("body force: at most %.4g per volume\n", force);
   tell_of_loads(setup.flow.conditions);
   if (!peak.patch.empty()) {
     std::printf("%s\n", text_of(peak, p.mu_f / p.rho).c_str());
@@ -332,14 +335,16 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With less no cell has solid on all its sides. In a plane an ellipsoid's third axis is unseen.
-    constexpr Real few = 2.5;
+    // With too few no cell has solid on all its sides. In a plane an ellipsoid's third axis is
+    // unseen.
+    constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
     const Real through = s.thickness / edges[i];
     if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))
       std::fprintf(stderr,
-                   "fsi: warning: %s: %.2g cells through its thickness are too few, its speed and "
-                   "strain are wrong; take four or more (doc/howto/vessel.md)\n",
-                   name.c_str(), through);
+                   "fsi: warning: %s: %.2g cells through its thickness are %s; take 4 or more, 6 "
+                   "are better (doc/howto/vessel.md)\n",
+                   name.c_str(), through,
+                   through < too_few ? "too few, its speed and strain are wrong" : "few");
   }
   std::fflush(stdout);
 }

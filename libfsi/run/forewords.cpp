@@ -66,8 +66,19 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
 std::string text_of(const PeakFlow& peak, Real nu) {
   return print(
       "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
-      "diameter %.4g; U = %.4g is the largest velocity there (of a parabola: in a round tube)",
+      "diameter %.4g; U = %.4g is the largest velocity there; for a parabola this "
+      "takes the section to be a circle, in two dimensions a slit",
       peak.patch.c_str(), peak.t, peak.mean * peak.length / nu, peak.mean, peak.length, peak.top);
+}
+
+Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end) {
+  if (!f) return 0;
+  constexpr int times = 20;
+  Real most = 0;
+  for (int i = 0; i < times; ++i)
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      most = std::max(most, norm(f(mesh.C[c], end * i / times)));
+  return global_max(most);
 }
 
 Real curvature(const Patch& patch, const Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "libfsi/field/boundary.hpp"
+#include "libfsi/field/of_place_and_time.hpp"
 #include "libfsi/shapes/shapes.hpp"
 
 namespace fsi {
@@ -23,6 +24,9 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
 
 /// That flow in a sentence, with its Reynolds number. nu: kinematic viscosity.
 std::string text_of(const PeakFlow& peak, Real nu);
+
+/// Collective. The largest |f| in the cells at twenty times from 0 to end; 0 without a force.
+Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end);
 
 /// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that
 /// share a point; angles of more than 30 degrees are edges between planes and do not count.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <exception>
 #include <fstream>
 #include <limits>
 
@@ -55,7 +56,10 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
   tell_of_images(solver_);
   first_step_ = row_step_ = solver_.state().step;
   forecast_ = Forecast(solver_.state().t);
+  for (const Column& column : columns_)
+    require(column.value != nullptr, "column \"" + column.name + "\" has an empty function");
   saving([this] { open(); });
+  tell_of_missing_solids(solver_, setup.solids.size());
   std::string line = "limits on dt:";
   for (const Limit& limit : limits(solver_, setup.time)) {
     std::array<char, 48> text{};
@@ -70,7 +74,9 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
 
 Output::~Output() {
   if (finished_ || rank() != 0) return;
-  if (message_.empty()) message_ = "ended by an error that standard error tells";
+  if (message_.empty())
+    message_ = std::uncaught_exceptions() > 0 ? "ended by an error that standard error tells"
+                                              : tell_of_no_finish();
   put_text(case_.output.directory, summary("failed"));
 }
 
@@ -228,6 +234,8 @@ void Output::write_due(const Limit& asked, Real dt) {
   require_same_solids();
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
+  ++steps_told_;
+  watch_.end(s.t - dt, case_.time.end);
   if (s.step == first_step_ + 1) options_.check_unused();
   energy_.add(solver_, dt);
   if (const std::string wrong = watch_.energy(energy_.part_made(), solver_); !wrong.empty())
@@ -242,14 +250,6 @@ void Output::write_due(const Limit& asked, Real dt) {
     return;
   write_progress(limit, dt);
   progress_at_ = stopwatch_.seconds();
-}
-
-/// The largest of the solids.
-Real Output::drift() const {
-  Real most = 0;
-  for (const SolidRecord& record : records_)
-    if (std::abs(record.drift()) > std::abs(most)) most = record.drift();
-  return most;
 }
 
 /// Of all tables.
@@ -341,9 +341,9 @@ void Output::write_progress(const Limit& limit, Real dt) {
   std::printf(
       "step %8lld  t %.5g  dt %.3g (%s)  Co %.3f  div %.1e  drift %.1e  p-its %d  u-its %d  ETA "
       "%s\n",
-      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_, drift(),
-      solver_.report().pressure_iterations, solver_.report().velocity_iterations,
-      Forecast::text(left).c_str());
+      static_cast<long long>(s.step), s.t, dt, limit.name.c_str(), courant, divergence_,
+      largest_drift(records_), solver_.report().pressure_iterations,
+      solver_.report().velocity_iterations, Forecast::text(left).c_str());
   std::fflush(stdout);
 }
 
@@ -360,7 +360,7 @@ std::string Output::summary(const std::string& status) const {
   s.t = solver_.state().t;
   s.wall_seconds = stopwatch_.seconds();
   s.divergence_max = divergence_;
-  s.solid_volume_drift = drift();
+  s.solid_volume_drift = largest_drift(records_);
   s.phases = solver_.profile().seconds();
   s.limits = limits_;
   for (const auto& [reason, number] : solver_.report().rejections)
@@ -372,6 +372,7 @@ RunStatus Output::finish() {
   const std::string& failure = solver_.report().failure;
   const bool complete = failure.empty() && !interrupted_;
   saving([this] { require_same_solids(); });
+  tell_of_steps(solver_.state().step - first_step_, steps_told_);
   divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
   saving([&] {
     if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
@@ -383,12 +384,13 @@ RunStatus Output::finish() {
     io::write_text(case_.output.directory + "/summary.json", summary(status));
   });
   finished_ = true;
+  const std::string on = interrupted_ ? where() + ", and -restart goes on from it" : "";
   if (!failure.empty()) throw Error(ErrorKind::numerics, failure + where());
   if (rank() == 0)
-    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s\n",
+    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s%s\n",
                 interrupted_ ? "interrupted" : "complete", solver_.state().t,
                 static_cast<long long>(solver_.state().step), stopwatch_.seconds(),
-                case_.output.directory.c_str());
+                case_.output.directory.c_str(), on.c_str());
   return interrupted_ ? RunStatus::interrupted : RunStatus::complete;
 }
 

@@ -105,11 +105,10 @@ class Output {
   Stopwatch stopwatch_;
   Forecast forecast_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
-  std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1;
+  std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1, steps_told_ = 0;
   std::map<std::string, Real> limits_;  // steps by what set their length
   std::string message_;                 // why the run ended, where no step failed
   bool interrupted_ = false, finished_ = false;
-  Real drift() const;
 };
 
 }  // namespace fsi

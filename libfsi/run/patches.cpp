@@ -208,9 +208,10 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
   const auto check = [&](const std::vector<std::string>& given, const std::string& end) {
     for (const std::string& text : given)
       if (patch_of(text + end, mesh).empty())
-        throw Error(ErrorKind::input, "option -patches_" + text + end + " is of no patch" +
-                                          (end.empty() ? "" : ": \"" + text + "\" is unknown") +
-                                          "; " + has + meant(text, names_of(mesh)));
+        throw Error(ErrorKind::input,
+                    "option -patches_" + text + end + " is of no patch" +
+                        (end.empty() ? "" : ": \"" + text + "\" is unknown") + "; " + has +
+                        meant(end.empty() ? text.substr(0, text.find('_')) : text, names_of(mesh)));
   };
   check(options.names("patches_", "_type"), "_type");
   check(options.names("patches_", ""), "");

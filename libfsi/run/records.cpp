@@ -325,4 +325,11 @@ void SolidRecord::list(io::Snapshot& snapshot, const std::string& name) {
   snapshot.add(of + "drift", &drift_);
 }
 
+Real largest_drift(const std::vector<SolidRecord>& records) {
+  Real most = 0;
+  for (const SolidRecord& record : records)
+    if (std::abs(record.drift()) > std::abs(most)) most = record.drift();
+  return most;
+}
+
 }  // namespace fsi

@@ -70,6 +70,9 @@ class SolidRecord {
   Soundness soundness_;
 };
 
+/// The largest drift of the volume, of all solids.
+Real largest_drift(const std::vector<SolidRecord>& records);
+
 /// B of every cell: the unit tensor outside the solid.
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/run/case.hpp"
 #include "libfsi/solid/law/laws.hpp"
@@ -192,10 +193,16 @@ void check_shapes(const Options& options, const std::vector<std::string>& names)
   for (const std::string& shape : shapes_known) shapes += (shapes.empty() ? "" : ", ") + shape;
   require(list.empty(), "option -solid_shape is missing beside " + list +
                             "; choose from: " + shapes + " (none: no solid)");
-  for (const std::string& text : options.names("solids_", ""))
-    require(std::ranges::any_of(names, [&](auto& name) { return text.starts_with(name + "_"); }),
-            "option -solids_" + text + " is of no solid: each has a name without blanks, and a " +
-                "shape in -solids_NAME_shape; choose from: " + shapes);
+  for (const std::string& text : options.names("solids_", "")) {
+    if (std::ranges::any_of(names, [&](auto& name) { return text.starts_with(name + "_"); }))
+      continue;
+    const std::string near = nearest(text.substr(0, text.find('_')), names, 2);
+    throw Error(ErrorKind::input,
+                "option -solids_" + text +
+                    " is of no solid: each has a name without blanks, and a " +
+                    "shape in -solids_NAME_shape; choose from: " + shapes +
+                    (near.empty() ? "" : "; did you mean -solids_" + near + "_...?"));
+  }
 }
 
 }  // namespace

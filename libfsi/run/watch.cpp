@@ -61,6 +61,26 @@ void tell_of_images(const Solver& solver) {
               "sections, bending and taylor are those of the part in the mesh");
 }
 
+void tell_of_missing_solids(const Solver& solver, std::size_t in_case) {
+  if (in_case > 0 && solver.bodies().empty())
+    say("notice",
+        "the case has a solid and the solver none: put_solids(solver, setup) before the "
+        "Output puts it in");
+}
+
+void tell_of_steps(std::int64_t made, std::int64_t told) {
+  if (told < made)
+    say("warning", print("%lld of %lld steps are in no file: Output::after_step follows every "
+                         "Solver::advance",
+                         static_cast<long long>(made - told), static_cast<long long>(made)));
+}
+
+std::string tell_of_no_finish() {
+  std::string text = "the driver ended without Output::finish()";
+  say("warning", text);
+  return text;
+}
+
 std::string Watch::energy(Real made, const Solver& solver) {
   constexpr Real odd = 0.1, wrong = 0.5;
   if (made < odd || (told_of_energy_ && made <= wrong)) return "";
@@ -75,6 +95,16 @@ std::string Watch::energy(Real made, const Solver& solver) {
   if (made <= wrong) say("warning", text);
   told_of_energy_ = true;
   return made > wrong ? text : "";
+}
+
+void Watch::end(Real begin, Real end) {
+  constexpr Real rounding = 1e-9;
+  if (told_of_end_ || begin < end * (1 - rounding)) return;
+  told_of_end_ = true;
+  say("warning",
+      print("a step begins at t = %g, at or past the end at %g: Clock::set(t) after every "
+            "step tells the clock the time",
+            begin, end));
 }
 
 void Watch::reynolds(Real number) {
@@ -118,10 +148,9 @@ void Watch::leaving(const Solver& solver) {
     if (ends)
       say("notice",
           "the last of the " + name_of(body) +
-              print(" left the mesh at t = %g; what was left of it in no cell half full, a "
-                    "volume of %.3g or %.2g %% of the solid, was taken out and is part "
-                    "of volume_out",
-                    t, body.residue, 100 * body.residue / body.filled.volume));
+              print(" left the mesh at t = %g; %.2g %% of it, a volume of %.3g that filled no cell "
+                    "by half, was taken out and counts in volume_out",
+                    t, 100 * body.residue / body.filled.volume, body.residue));
   }
 }
 

@@ -12,6 +12,15 @@ namespace fsi {
 /// A notice of each solid that is cut by planes of symmetry whose images do not make it whole.
 void tell_of_images(const Solver& solver);
 
+/// A notice where the case has solids and the solver none.
+void tell_of_missing_solids(const Solver& solver, std::size_t in_case);
+
+/// A warning where fewer steps were told to the Output than were made.
+void tell_of_steps(std::int64_t made, std::int64_t told);
+
+/// A warning that no finish() ended the run; returns its text.
+std::string tell_of_no_finish();
+
 /// Tells each of these once a run, on rank 0.
 class Watch {
  public:
@@ -22,6 +31,8 @@ class Watch {
   /// where it is most of it, why the run must end: such a run is wrong, whatever else it tells.
   /// Both name the place where the solid is strained most. Else "".
   std::string energy(Real made, const Solver& solver);
+  /// A warning where a step begins at or past the end of the run.
+  void end(Real begin, Real end);
   /// A warning where the flow through the openings is past what stays laminar in a vessel.
   void reynolds(Real number);
   /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
@@ -40,7 +51,8 @@ class Watch {
     int pieces = -1;  // at first
   };
   std::vector<Said> said_;  // of the bodies
-  bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false;
+  bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
+       told_of_end_ = false;
 };
 
 }  // namespace fsi

@@ -142,6 +142,23 @@ void Solver::require_step(Real dt) const {
             state_.t));
 }
 
+void Solver::require_finite(const CellField<Vec3>& u_0) const {
+  Index first = 0;
+  while (first < mesh_.n_owned && std::isfinite(norm2(u_0[first]))) ++first;
+  const bool finite = first == mesh_.n_owned;
+  const Vec3 x = finite ? Vec3{} : mesh_.C[first];
+  const std::vector<Real> all = gathered(std::array{finite ? 0.0 : 1.0, x.x, x.y, x.z});
+  for (std::size_t i = 0; i < all.size(); i += 4)
+    require(all[i] == 0, print("the velocity to start from is not finite at (%.5g, %.5g, %.5g)",
+                               all[i + 1], all[i + 2], all[i + 3]));
+}
+
+void Solver::require_balance(Real t) const {
+  if (!prescribed_) return;
+  const std::string excess = imbalance(u_b_new_, conditions_, mesh_);
+  if (!excess.empty()) throw Error(ErrorKind::numerics, print("at t = %.6g ", t) + excess);
+}
+
 Real Solver::advance(Real dt) {
   require_step(dt);
   if (!backup_) hold_backup();

@@ -37,7 +37,8 @@ class EnergyBalance {
   /// What the scheme has made, as above.
   Real made() const { return made_; }
   /// That in parts of the largest energy that was stored and of the work: what a run may have made
-  /// and be right. They count as no less than what rounding may make of the elastic energy.
+  /// and be right. They count as no less than what rounding may make of the elastic energy, and a
+  /// force that the pressure bears of the kinetic energy.
   Real part_made() const;
 
   /// What a restart goes on from; part of a checkpoint.
@@ -45,12 +46,12 @@ class EnergyBalance {
 
  private:
   void set_power_and_stored(const Solver& solver);
-  static void add_power(Sum& sum, const Solver& solver);
+  static void add_power(Sum& power, Sum& force, const Solver& solver);
   void add_power_of_boundary(Sum& sum, const Solver& solver);
 
   BoundaryField<Vec3> u_b_;
   Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
-  Real rounding_ = 0;  // below it energies tell nothing
+  Real resolved_ = 0;  // below it energies tell nothing
   std::int64_t steps_ = 0;
 };
 

@@ -22,8 +22,11 @@ void require_place(const Body& body, const std::string& by_default, const std::d
                    const Mesh& mesh) {
   const std::string which = called(body),
                     sizes = by_default.empty() ? "" : "; by default it has " + by_default;
-  require(body.filled.volume > 0,
-          which + " is empty: its shape lies outside the mesh or is smaller than a cell" + sizes);
+  if (!(body.filled.volume > 0))
+    throw Error(ErrorKind::input,
+                which + " is empty: its shape lies outside the mesh or is smaller than a cell" +
+                    sizes + "; the mesh reaches " + text_of(extent(mesh)) +
+                    ": look whether both are in the same unit");
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
   require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
                                                  print("%.4g", -body.filled.clearance) +

@@ -82,6 +82,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
+  prescribed_ = leaves_ && std::ranges::none_of(conditions_, fixes_pressure);
   // What keeps kinetic energy has all of convection explicit, in steps as short as that asks for.
   if (courant_.any_simplex() && !setup.orthogonal_projection)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
@@ -103,6 +104,7 @@ void Solver::make_orthogonal() {
 
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
+  require_finite(state_.u);
   set_gradient(L_, u_b_, state_.t);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   openings_.set_pressure(p_b_, state_.u);
@@ -229,6 +231,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
 
 void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
+  require_balance(state_.t + dt);
   set_gradient(L_, u_b_new_, state_.t + dt);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   for (const auto& [i, L] : interface_L_f_) L_f_[i] = L;

@@ -190,6 +190,10 @@ class Solver {
   void require_bodies() const;
   /// Errors: Error{input} where that is no step.
   void require_step(Real dt) const;
+  /// Collective. Errors: Error{input} where the velocity to start from is not finite.
+  void require_finite(const CellField<Vec3>& u_0) const;
+  /// Collective. Errors: Error{numerics} where more flows in than out at t, by u_b_new_.
+  void require_balance(Real t) const;
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
   void set_pressure_of_rest();
@@ -335,7 +339,8 @@ class Solver {
   std::vector<vof::Fractions> fractions_;      // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
   std::optional<StrainByFlux> by_flux_;
-  bool leaves_ = false;  // whether a solid may leave the mesh
+  bool leaves_ = false;      // whether a solid may leave the mesh
+  bool prescribed_ = false;  // whether all that flows in and out is given
   std::optional<Backup> backup_;
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run

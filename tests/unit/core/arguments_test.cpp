@@ -20,6 +20,7 @@ TEST(Arguments, AnOptionsFileComesFirst) {
                                                "-case_folder", ".", "-a", "1"}));
   EXPECT_EQ(read({"cases/own.yml"}).words.back(), "cases");
   EXPECT_EQ(read({"-a", "case.yaml"}).file, "");
+  EXPECT_EQ(read({"-help", "-a", "1", "case.yaml"}).words, a.words);
   EXPECT_FALSE(a.version);
   EXPECT_TRUE(read({"-version"}).version);
 }

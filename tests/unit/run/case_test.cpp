@@ -59,7 +59,8 @@ TEST(PutSolids, SizesByDefaultAreToldOfWhatDoesNotFit) {
             "solid \"two\" overlaps solid \"one\" at the start: move one of them" + sizes);
   EXPECT_EQ(
       sentence({0.5, 0.5, 5}, {}, middle),
-      "solid \"one\" is empty: its shape lies outside the mesh or is smaller than a cell" + sizes);
+      "solid \"one\" is empty: its shape lies outside the mesh or is smaller than a cell" + sizes +
+          "; the mesh reaches from (0, 0, 0) to (1, 1, 0): look whether both are in the same unit");
   EXPECT_EQ(sentence(middle, {}, {}), "two solids have the name \"one\"");
   EXPECT_EQ(sentence(middle, {.orthogonal_projection = true}, {}),
             "an orthogonal projection (-flow_projection) is for a fluid without solids");

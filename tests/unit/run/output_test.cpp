@@ -6,7 +6,9 @@
 
 #include <map>
 #include <sstream>
+#include <utility>
 
+#include "libfsi/core/parallel.hpp"
 #include "tests/unit/io/support.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -104,6 +106,61 @@ TEST(Output, ADriversColumnHasANameOfItsOwn) {
     EXPECT_NE(sentence(name).find("two columns \"" + name + "\""), std::string::npos) << name;
   for (const char* name : {"", "x,y", "\"x", "x\ny"})
     EXPECT_NE(sentence(name).find("cannot be the name of a column"), std::string::npos) << name;
+}
+
+/// What a driver forgets.
+enum class Left { nothing, after_step, finish, clock };
+
+/// The words on standard error of a run to t = 0.3, and its summary.
+std::pair<std::string, std::string> forgetful(const std::string& folder, Left left) {
+  const Mesh mesh = test::read_box({.n = {4, 4, 0}, .periodic = {"left", "right"}});
+  const Options options("test", "a test");
+  Case setup;
+  setup.flow.conditions = {{"bottom", Wall{}}, {"top", Wall{}}};
+  setup.time = {.end = 0.3, .step = 0.1};
+  setup.output = {.directory = folder, .sample_interval = 0.1};
+  if (left == Left::nothing) setup.solids.emplace_back();
+  testing::internal::CaptureStderr();
+  {
+    Solver solver(mesh, setup.physics, setup.flow);
+    solver.start([](const Vec3&) { return Vec3{}; });
+    Output output(setup, options, solver, "test");
+    for (int i = 0; i < (left == Left::clock ? 5 : 3); ++i) {
+      const Real dt = solver.advance(0.1);
+      if (left != Left::after_step) output.after_step(stable_dt(solver, setup.time), dt);
+    }
+    if (left != Left::finish) {
+      EXPECT_EQ(output.finish(), RunStatus::complete);
+    }
+  }
+  return {testing::internal::GetCapturedStderr(), test::content(folder + "/summary.json")};
+}
+
+TEST(Output, WhatADriverForgetsIsTold) {
+  const Folder folder;
+  const auto expect = [&](Left left, const char* words, const char* status) {
+    const auto [said, summary] = forgetful(folder / "run", left);
+    if (rank() == 0) {
+      EXPECT_NE(said.find(words), std::string::npos) << said;
+    }
+    EXPECT_NE(summary.find(status), std::string::npos) << summary;
+  };
+  expect(Left::nothing, "the case has a solid and the solver none", "\"complete\"");
+  expect(Left::after_step, "3 of 3 steps are in no file", "\"complete\"");
+  expect(Left::finish, "the driver ended without Output::finish()", "without Output::finish()");
+  expect(Left::clock, "a step begins at t = 0.3, at or past the end at 0.3", "\"complete\"");
+}
+
+TEST(Output, AColumnHasAFunction) {
+  const Folder folder;
+  const Mesh mesh = test::read_box({.n = {4, 4, 0}, .periodic = {"left", "right"}});
+  const Options options("test", "a test");
+  Case setup;
+  setup.flow.conditions = {{"bottom", Wall{}}, {"top", Wall{}}};
+  setup.output = {.directory = folder / "run"};
+  Solver solver(mesh, setup.physics, setup.flow);
+  solver.start([](const Vec3&) { return Vec3{}; });
+  EXPECT_THROW(Output(setup, options, solver, "test", {{"mine", {}}}), Error);
 }
 
 }  // namespace

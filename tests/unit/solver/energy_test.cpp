@@ -30,6 +30,28 @@ TEST(EnergyBalance, TheWorkOfAForceIsStored) {
   EXPECT_LE(energy.part_made(), 1e-9);
 }
 
+// The pressure bears a uniform force in a closed box. What a step leaves of it in cells at walls is
+// no energy that came from nothing, and the force does no work.
+TEST(EnergyBalance, AForceThatThePressureBearsDoesNoWork) {
+  constexpr Real frequency = 2 * std::numbers::pi, dt = 0.04;
+  const auto shaken = [](const Vec3&, Real t) { return Vec3{std::cos(frequency * t), 0, 0}; };
+  for (const bool simplex : {false, true})
+    for (const Real mu : {1e-3, 0.1}) {
+      const Mesh mesh = test::read_box({.n = {12, 12, 0}, .simplex = simplex});
+      Conditions walls;
+      for (const char* name : {"left", "right", "bottom", "top"}) walls[name] = Wall{};
+      Solver solver(mesh, {.rho = 1, .mu_f = mu}, {.conditions = walls, .body_force = shaken});
+      solver.start([](const Vec3&) { return Vec3{}; });
+      EnergyBalance energy(solver);
+      for (int i = 0; i < 100; ++i) {
+        solver.step(dt);
+        energy.add(solver, dt);
+      }
+      EXPECT_LE(std::abs(energy.work()), 1e-8) << mu;
+      EXPECT_LE(energy.part_made(), 0.05) << mu;
+    }
+}
+
 // A layer of another density falls with all the fluid of a column without ends: f of the height,
 // ratio r, and all the work of its weight is kinetic energy,
 //   M u = f (r - 1) g t,  M = 1 + f (r - 1),  E = M u^2 / 2.

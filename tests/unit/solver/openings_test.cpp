@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
@@ -276,6 +277,62 @@ TEST(Openings, AFlatCellBearsTheStepsOfItsNeighbours) {
       {.conditions = {
            {"left", across}, {"top", across}, {"right", Opening{}}, {"bottom", Opening{}}}});
   EXPECT_LT(largest_speed(solver, shaken), 3);
+}
+
+/// What the solver says when it is made and steps to t = 1; "" where it says nothing.
+std::string fault(const Condition& left, const Condition& right) {
+  const Mesh mesh = channel(4);
+  try {
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.1},
+        {.conditions = {{"left", left}, {"right", right}, {"bottom", Slip{}}, {"top", Slip{}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    while (solver.state().t < 1)
+      if (solver.advance(0.1) == 0) return solver.report().failure;
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+}
+
+TEST(Openings, WhatFlowsInMustFlowOut) {
+  const auto uniform = [](Real speed) {
+    return FixedVelocity{[=](const Vec3&, Real) { return Vec3{speed, 0, 0}; }};
+  };
+  const FixedVelocity later{[](const Vec3&, Real t) { return Vec3{t, 0, 0}; }};
+  const FixedVelocity along{[](const Vec3&, Real) { return Vec3{1e-18, 1, 0}; }};
+  EXPECT_EQ(fault(uniform(1), uniform(1)), "");
+  EXPECT_EQ(fault(uniform(1), uniform(0.99)), "") << "as far as a velocity is known";
+  EXPECT_EQ(fault(uniform(1), Opening{}), "");
+  EXPECT_EQ(fault(along, Wall{}), "") << "nothing passes";
+  EXPECT_EQ(fault(FlowRate{1}, FlowRate{-1}), "");
+  const std::string start =
+      "at t = 0 1 flows in through the patches per unit of time and 0 out, and no patch gives";
+  EXPECT_NE(fault(uniform(1), Wall{}).find(start), std::string::npos);
+  EXPECT_NE(fault(FlowRate{1}, Wall{}).find(start), std::string::npos);
+  EXPECT_NE(fault(uniform(1), uniform(0.5)).find("and 0.5 out"), std::string::npos);
+  for (const std::string& said :
+       {fault(later, Wall{}), fault(FlowRate{[](Real t) { return t; }}, Wall{})})
+    EXPECT_NE(said.find("flows in through the patches per unit of time and 0 out"),
+              std::string::npos)
+        << said;
+  EXPECT_NE(fault(FixedVelocity{}, Opening{}).find("patch \"left\" has an empty velocity"),
+            std::string::npos);
+}
+
+TEST(Openings, AVelocityToStartFromIsFinite) {
+  const Mesh mesh = channel(4);
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = 0.1},
+      {.conditions = {
+           {"left", Opening{}}, {"right", Opening{}}, {"bottom", Wall{}}, {"top", Wall{}}}});
+  try {
+    solver.start([](const Vec3& x) { return Vec3{x.x > 1.8 ? std::sqrt(1.8 - x.x) : 0, 0, 0}; });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the velocity to start from is not finite at (1.875, 0.125, 0)");
+  }
 }
 
 // So it does with one side at the boundary where the flow comes in.
