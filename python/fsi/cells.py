@@ -28,16 +28,18 @@ def distinct(rows):
 class Simplices:
     """Triangles [m, 3] or tetrahedra [m, 4] that fill cells, over the points and further ones.
 
-    A further point is the middle of a cell or of a face; `extend` gives it the mean of the corners.
+    A further point is the middle of a cell or of a face; `extend` gives it the mean of the corners. `cells`
+    are the numbers of the cells that they are of.
     """
 
     def __init__(self, mesh, chosen=None):
         self.count, self.means = len(mesh.points), []
-        found, quads = [], []
+        found, of, quads = [], [], []
         extra = self.count
-        for _, corners, kind in mesh.groups(chosen):
+        for numbers, corners, kind in mesh.groups(chosen):
             if kind in (TRIANGLE, TET):
                 found.append(corners)
+                of.append(numbers)
                 continue
             self.means.append(corners)
             middle = extra + np.arange(len(corners))
@@ -45,17 +47,20 @@ class Simplices:
             for face in FACES[kind]:
                 ends = corners[:, face]
                 if len(face) == 4:
-                    quads.append((ends, middle))
+                    quads.append((ends, middle, numbers))
                 else:
                     found.append(np.column_stack([ends, middle]))
+                    of.append(numbers)
         if quads:
-            ends, middle = (np.concatenate(part) for part in zip(*quads))
+            ends, middle, numbers = (np.concatenate(part) for part in zip(*quads))
             first, number, _ = distinct(np.sort(ends, axis=1))
             self.means.append(ends[first])
             centre = extra + number
             found += [np.column_stack([ends[:, i], ends[:, (i + 1) % 4], centre, middle])
                       for i in range(4)]
+            of += [numbers] * 4
         size = mesh.dim + 1
+        self.cells = np.concatenate(of) if of else np.zeros(0, int)
         self.corners = np.concatenate(found) if found else np.zeros((0, size), int)
 
     def extend(self, values):
@@ -98,23 +103,32 @@ def crossing(corners, value):
     return ends, part, number.reshape(-1, size - 1)
 
 
-def matched(mesh, fraction, value, rounds=15):
-    """Of values at the points of tetrahedra those whose linear course fills each tetrahedron by its
+def matched(mesh, fraction, value, rounds=12, most=0.4):
+    """Of values at the points those whose linear course in the tetrahedra of each cell fills the cell by its
     fraction, as near as can be.
 
-    Means over tetrahedra of unequal size and place are off by a good part of an edge. Each round adds
-    half of what is missing in the tetrahedra around a point, in the mean.
+    Means over cells round off what is curved, and over cells of unequal size and place they are off by a
+    good part of an edge. Each round adds half of what is missing in the cells around a point, in the mean.
+    No value changes by more than `most`: so a trace of solid away from the body stays without a surface.
     """
-    corners = mesh.place[mesh.corners].reshape(-1, 4)
-    level = value[corners]
-    cut = (fraction > 0) & (fraction < 1) | (level.min(axis=1) < 0) & (level.max(axis=1) > 0)
-    near, wanted = corners[cut], fraction[cut]
-    count = np.maximum(np.bincount(near.ravel(), minlength=len(value)), 1)
-    value = value.copy()
+    low, high = mesh.extent(value)
+    cut = np.flatnonzero((fraction > 0) & (fraction < 1) | (low < 0) & (high > 0))
+    if len(cut) == 0:
+        return value
+    parts = Simplices(mesh, cut)
+    places = parts.extend(mesh.points)[parts.corners]
+    size = abs(np.linalg.det(places[:, 1:] - places[:, :1]))
+    whole = np.maximum(np.bincount(parts.cells, size, minlength=len(fraction)), 1e-300)
+    near = np.concatenate([mesh.place[corners].ravel() for _, corners, _ in mesh.groups(cut)])
+    cell = np.concatenate([np.repeat(some, corners.shape[1]) for some, corners, _ in mesh.groups(cut)])
+    count = np.maximum(np.bincount(near, minlength=len(value)), 1)
+    first = value
     for _ in range(rounds):
-        missing = np.repeat(wanted - part_above(value[near]), 4)
-        value += 0.5 * np.bincount(near.ravel(), missing, minlength=len(value)) / count
-    return value[mesh.place]
+        filled = size * part_above(parts.extend(value)[parts.corners])
+        missing = fraction - np.bincount(parts.cells, filled, minlength=len(fraction)) / whole
+        value = (value + 0.5 * np.bincount(near, missing[cell], minlength=len(value)) / count)[mesh.place]
+        value = np.clip(value, first - most, first + most)
+    return value
 
 
 def part_above(value):

@@ -95,6 +95,16 @@ class Mesh:
                                             self._outward(places[:, face])) / self.dim
         return abs(found)
 
+    @functools.cached_property
+    def edges(self):
+        """Mean length of the sides of the faces of each cell."""
+        found = np.zeros(len(self.types))
+        for numbers, corners, kind in self.groups():
+            sides = np.array([(face[i - 1], face[i]) for face in cells.FACES[kind] for i in range(len(face))])
+            ends = self.points[corners[:, sides]]
+            found[numbers] = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).mean(axis=1)
+        return found
+
     def gradients(self, values):
         """Of values at the points [n, c], in each cell [m, c, 3], by the means on its faces."""
         found = np.zeros((len(self.types), values.shape[1], 3))
@@ -203,6 +213,7 @@ DERIVED = {  # name: (the fields that it is made of, how)
     "speed": (("u",), lambda snapshot: np.linalg.norm(snapshot["u"], axis=1)),
     "stretch": (("B", "alpha"), _stretch),  # the largest one
     "stress": (("u", "p"), _stress),  # of the fluid [m, 3, 3]
+    "edge": ((), lambda snapshot: snapshot.mesh.edges),  # mean length of the edges of a cell
 }
 OF_SOLID, OF_FLUID = ("B", "stretch"), ("stress",)
 

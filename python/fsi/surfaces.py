@@ -4,10 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import cells
+from . import cells, quadrics
 
 
 ENDS = 0.03, 0.97  # a surface keeps so far from the ends of an edge: a triangle of no size has no normal
+
 
 
 @dataclass
@@ -31,12 +32,13 @@ class Surface:
         middle = self.points[self.triangles].mean(axis=1) - self.points.mean(axis=0)
         return np.einsum("ij,ij->", middle, self.area_vectors()) / 3
 
+    def around(self):
+        """At each point the sum of the normals of its triangles, each as long as its area."""
+        return quadrics.sums(self.triangles.ravel(), np.repeat(self.area_vectors(), 3, axis=0), len(self.points))
+
     def normals(self):
         """Unit vectors at the points, outward where the triangles turn that way."""
-        around = np.repeat(self.area_vectors(), 3, axis=0)
-        total = np.stack([np.bincount(self.triangles.ravel(), column, minlength=len(self.points))
-                          for column in around.T], axis=1)
-        return total / (np.linalg.norm(total, axis=1, keepdims=True) + 1e-300)
+        return quadrics.unit(self.around())
 
     def edges(self):
         """Pairs of points [k, 2], each once, and of how many triangles each is a side."""
@@ -77,7 +79,7 @@ def isosurface(snapshot, name="alpha", level=0.5, carry=(), value=None):
     return surface
 
 
-def solid_surface(snapshot, carry=(), about=None, rounds=100):
+def solid_surface(snapshot, carry=(), about=None):
     """The surface alpha = 0.5, smooth and in one piece across the seams of a period.
 
     A closed surface encloses the volume of the solid. `carry` names fields that come along as values; one
@@ -87,8 +89,8 @@ def solid_surface(snapshot, carry=(), about=None, rounds=100):
     if snapshot.mesh.dim == 2:
         raise ValueError("a run in two dimensions has no surface; its line is where alpha is 0.5")
     fields = ["stress" if name == "traction" else name for name in carry]
-    fields = [name for name in fields if name in snapshot]
-    bodies = [_body(snapshot, name, fields, about, rounds) for name in snapshot.bodies()]
+    fields = ["edge"] + [name for name in fields if name in snapshot]
+    bodies = [_body(snapshot, name, fields, about) for name in snapshot.bodies()]
     return united([body for body in bodies if len(body.triangles)] or bodies[:1])
 
 
@@ -105,13 +107,10 @@ def united(parts):
                    {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values})
 
 
-def _body(snapshot, name, fields, about, rounds):
+def _body(snapshot, name, fields, about):
     """The surface of one solid, of which `name` is the part of the cells."""
     mesh = snapshot.mesh
-    value = snapshot.at_points(name) - _half(snapshot, name)
-    tets = bool((mesh.types == cells.TET).all())
-    if tets:
-        value = cells.matched(mesh, snapshot[name], value)
+    value = cells.matched(mesh, snapshot[name], snapshot.at_points(name) - _half(snapshot, name))
     surface = isosurface(snapshot, carry=fields, value=value)
     if len(surface.triangles) == 0:
         return surface
@@ -119,10 +118,10 @@ def _body(snapshot, name, fields, about, rounds):
     surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
     for key, value in surface.values.items():
         surface.values[key] = filled(value, surface.edges()[0])
-    # Tets cut triangles of all sizes, which count by their area; few rounds do, as the level is sharp.
-    surface = smooth(subdivide(smooth(surface, rounds if not tets else 30, tets)), 10)
+    surface = smooth(fitted(surface), 4)
+    del surface.values["edge"]
     if (surface.edges()[1] == 2).all():
-        # Means over cells round off what is curved: give the volume back along the normals.
+        # Triangles cut off what is curved: give the volume back along the normals.
         volume = snapshot.volume_of_solid(name)
         for _ in range(8):  # a part of its size at a time: a coarse mesh may have lost much
             far = 0.05 * np.sqrt(surface.area())
@@ -212,29 +211,24 @@ def joined(surface, size):
                    {name: value[first] for name, value in surface.values.items()})
 
 
-def smooth(surface, rounds, by_area=False):
-    """Takes out steps of the size of a cell and keeps volume and shape; an open edge stays.
-
-    by_area: a point goes towards the middle of the triangles around it, not that of its neighbours.
-    """
+def smooth(surface, rounds):
+    """Takes out small steps and keeps volume and shape; an open edge stays."""
     edges, count = surface.edges()
-    mean = (lambda places: middles(places, surface.triangles)) if by_area else None
-    points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel(), mean)
+    points = relaxed(surface.points, edges, rounds, edges[count == 1].ravel())
     values, number = {}, len(surface.points)
     for name, value in surface.values.items():
         values[name] = relaxed(value.reshape(number, -1), edges, 6).reshape(value.shape)
     return Surface(points, surface.triangles, values)
 
 
-def relaxed(places, edges, rounds, fixed=(), mean=None):
+def relaxed(places, edges, rounds, fixed=(), shares=(0.5, -0.53)):
     """Each round moves what stands at the ends of edges towards the mean of its neighbours and back
-    [Taubin95]. mean(places): another aim."""
-    mean = mean or (lambda places: neighbours(places, edges))
+    [Taubin95]."""
     free = np.ones((len(places), 1))
     free[np.asarray(fixed, int)] = 0
     for _ in range(rounds):
-        for share in (0.5, -0.53):
-            places = places + share * free * (mean(places) - places)
+        for share in shares:
+            places = places + share * free * (neighbours(places, edges) - places)
     return places
 
 
@@ -247,15 +241,23 @@ def neighbours(values, edges):
                      for column in values.T], axis=1) / degree
 
 
-def middles(places, triangles):
-    """For each point the middle of the triangles around it, each by its area."""
-    a, b, c = np.moveaxis(places[triangles], 1, 0)
-    area = np.repeat(np.linalg.norm(np.cross(b - a, c - a), axis=1), 3)
-    middle = np.repeat((a + b + c) / 3, 3, axis=0)
-    number, at = len(places), triangles.ravel()
-    total = np.bincount(at, area, minlength=number)[:, None]
-    found = np.stack([np.bincount(at, area * column, minlength=number) for column in middle.T], axis=1)
-    return np.where(total > 0, found / np.where(total > 0, total, 1), places)
+def fitted(surface):
+    """Each triangle as four, with all points on quadrics that take out steps of the size of a cell.
+
+    The values of `edge` are the size of the cells. An open edge stays.
+    """
+    edges, count = surface.edges()
+    vectors, number = surface.around(), len(surface.points)
+    near = quadrics.Quadrics(surface.points, vectors, vectors + neighbours(vectors, edges), surface.values["edge"])
+    surface = smooth(surface, 0)
+    inner = np.setdiff1d(np.arange(number), edges[count == 1])
+    # Slivers would fold: their points move apart first.
+    surface.points = relaxed(surface.points, edges, 5, edges[count == 1].ravel(), (0.5,))
+    surface.points[inner] = near.onto(inner, surface.points[inner])
+    fine, (a, b) = subdivide(surface), edges[count != 1].T
+    middle = number + np.flatnonzero(count != 1)
+    fine.points[middle] = 0.5 * (near.onto(a, fine.points[middle]) + near.onto(b, fine.points[middle]))
+    return fine
 
 
 def filled(values, edges):

@@ -61,6 +61,33 @@ def ball(mesh, centre, radius, period=(0, 0, 0)):
     return np.clip(0.5 + (radius - distance) / size, 0, 1)
 
 
+def irregular(sides, counts, kind="tet"):
+    """Cells of unequal size: the inner points of a box of tetrahedra moved about; hexahedra stay."""
+    import fsi  # on the path since arguments()
+    points, *rest = box(sides, counts, kind)
+    inner = ((points > 1e-9) & (points < np.array(sides) - 1e-9)).all(axis=1) & (kind == "tet")
+    shift = np.random.default_rng(3).uniform(-0.18, 0.18, points.shape) * np.array(sides) / counts
+    return fsi.Mesh(np.where(inner[:, None], points + shift, points), *rest)
+
+
+def part_inside(mesh, inside, count=1000):
+    """The part of each tetrahedron or box for which inside(places), by so many places spread evenly in it."""
+    x, y, z = np.outer(1.2207440846 ** -np.arange(1, 4), np.arange(count)) % 1
+    if mesh.counts[0] == 8:
+        share = np.stack([a * b * c for c in (1 - z, z) for a, b in
+                          ((1 - x, 1 - y), (x, 1 - y), (x, y), (1 - x, y))], axis=1)
+    else:
+        share = np.diff(np.sort([0 * x, x, y, z, 0 * x + 1], axis=0), axis=0).T
+    corners = mesh.points[mesh.corners.reshape(len(mesh.types), -1)]
+    return np.concatenate([inside(np.einsum("sk,mkd->msd", share, some)).mean(axis=1)
+                           for some in np.array_split(corners, len(corners) // 1000 + 1)])
+
+
+def filled_part(mesh, centre, radius):
+    """The part of each cell in a ball."""
+    return part_inside(mesh, lambda places: np.linalg.norm(places - centre, axis=-1) < radius)
+
+
 def write_run(folder, mesh_arrays, times, fields, options=None, tables=None, case="pipe"):
     """A folder as a driver leaves it; fields(time): {name: values of the cells}."""
     os.makedirs(folder, exist_ok=True)

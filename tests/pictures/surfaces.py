@@ -5,7 +5,7 @@ import sys
 import numpy as np
 
 import made_up
-from made_up import ball, box, check
+from made_up import ball, box, check, filled_part, irregular, part_inside
 
 made_up.arguments()
 import fsi  # noqa: E402
@@ -42,35 +42,62 @@ def check_sphere():
         check(np.ptp(away) < 0.3 / n, f"{kind}: no facets: radius from {away.min():.4f} to {away.max():.4f}")
 
 
-def irregular(sides, counts):
-    """Tetrahedra of unequal size: the inner points of a box of them moved about."""
-    points, *rest = box(sides, counts, "tet")
-    inner = ((points > 1e-9) & (points < np.array(sides) - 1e-9)).all(axis=1)
-    shift = np.random.default_rng(3).uniform(-0.18, 0.18, points.shape) * np.array(sides) / counts
-    return runs.Mesh(np.where(inner[:, None], points + shift, points), *rest)
-
-
-def filled_part(mesh, centre, radius):
-    """The part of each tetrahedron in a ball, by 300 places in it."""
-    share = np.random.default_rng(4).dirichlet(np.ones(4), 300)
-    places = np.einsum("sk,mkd->msd", share, mesh.points[mesh.corners.reshape(-1, 4)])
-    return (np.linalg.norm(places - centre, axis=2) < radius).mean(axis=1)
-
-
-def check_tetrahedra():
-    """A small ball is round: limits are a little above what is found. Without the match to the cells'
-    fractions the radius was off by 0.27 and 0.15 at the first two sizes."""
+def check_matched():
     value = np.array([[1.0, -1, -1, -1], [-1, 1, 1, 1], [1, 1, -1, -1], [3, 1, 2, 4], [-2, -1, -3, -1]])
     check(np.allclose(cells.part_above(value), [1 / 8, 7 / 8, 1 / 2, 1, 0], atol=5e-3),
           f"the part of a tetrahedron above 0: {cells.part_above(value)}")
-    for n, limit in ((7, 0.09), (10, 0.06), (13, 0.05)):
-        mesh, centre = irregular((1, 1, 1), (n, n, n)), np.array((0.52, 0.49, 0.5))
+    for kind in ("hex", "tet", "prism", "pyramid"):
+        mesh = runs.Mesh(*box((1, 1, 1), (5, 5, 5), kind))
+        parts = cells.Simplices(mesh)
+        places = parts.extend(mesh.points)[parts.corners]
+        size = abs(np.linalg.det(places[:, 1:] - places[:, :1])) / 6
+        check(np.allclose(np.bincount(parts.cells, size), mesh.volumes), f"{kind}: the cells of the tetrahedra")
+        height = mesh.points @ (0.3, 0.5, 0.8) - 0.7
+        part = np.bincount(parts.cells, size * cells.part_above(parts.extend(height)[parts.corners])) / mesh.volumes
+        found = surfaces.isosurface(runs.Snapshot(mesh, 0.0, {"alpha": part}), value=cells.matched(
+            mesh, part, mesh.at_points(part) - 0.5, 60))
+        inner = (abs(found.points - 0.5) < 0.3).all(axis=1)
+        off = found.points[inner] @ (0.3, 0.5, 0.8) - 0.7
+        check(abs(off).max() < 0.02, f"{kind}: a plane is found again to {abs(off).max():.1e}")
+
+
+def check_round():
+    """A ball of few cells is round, on tetrahedra of unequal size as on hexahedra; limits a third above what
+    is found. A spike, a dent or a fold is none of it."""
+    centre = np.array((0.52, 0.49, 0.5))
+    for kind, n, limit in (("tet", 7, 0.07), ("tet", 9, 0.035), ("tet", 12, 0.022), ("hex", 8, 0.04), ("hex", 12, 0.011)):
+        mesh = irregular((1, 1, 1), (n, n, n), kind)
         one = runs.Snapshot(mesh, 0.0, {"alpha": filled_part(mesh, centre, 0.25)})
         surface = surfaces.solid_surface(one)
-        away = np.linalg.norm(surface.points - one.centre_of_solid(), axis=1) / 0.25
-        edge = np.cbrt(6 * np.sqrt(2) * np.median(mesh.volumes))
-        check(max(1 - away.min(), away.max() - 1) < limit,
-              f"tet: {0.5 / edge:.1f} edges across, radius from {away.min():.3f} to {away.max():.3f}")
+        away = surface.points - centre
+        radius = np.linalg.norm(away, axis=1)
+        slant = (np.einsum("ij,ij->i", surface.normals(), away) / radius).min()
+        area, radius = surface.area() / (np.pi / 4), radius / 0.25
+        told = f"{kind}: {0.5 / np.median(mesh.edges):.1f} edges across"
+        check(max(1 - radius.min(), radius.max() - 1) < limit,
+              f"{told}, radius from {radius.min():.3f} to {radius.max():.3f}")
+        check(abs(area - 1) < 0.005, f"{told}, area {area:.4f}")
+        check(slant > 0.97, f"{told}, cosine of normal to radius {slant:.3f}")
+
+
+def check_slender():
+    """A ring of two and three cells in the radius of its tube, and a trace of solid away from a body."""
+    for kind, n in (("hex", 16), ("hex", 24), ("tet", 20)):
+        mesh = irregular((1, 1, 0.5), (n, n, n // 2), kind)
+
+        def inside(places):
+            x, y, z = np.moveaxis(places - (0.5, 0.5, 0.25), -1, 0)
+            return np.hypot(np.hypot(x, y) - 0.27, z) < 0.125
+        one = runs.Snapshot(mesh, 0.0, {"alpha": part_inside(mesh, inside)})
+        surface = surfaces.solid_surface(one)
+        x, y, z = (surface.points - (0.5, 0.5, 0.25)).T
+        radius = np.hypot(np.hypot(x, y) - 0.27, z) / 0.125
+        area = surface.area() / (4 * np.pi**2 * 0.27 * 0.125)
+        check(0.95 < radius.min() and radius.max() < 1.05 and abs(area - 1) < 0.01,
+              f"{kind}: a ring, tube from {radius.min():.3f} to {radius.max():.3f}, area {area:.4f}")
+    far = np.linalg.norm(mesh.centres() - (0.02, 0.02, 0.02), axis=1).argmin()
+    one.data["alpha"][far] = 0.15
+    check(abs(surfaces.solid_surface(one).area() / surface.area() - 1) < 1e-3, "a trace away from it has no surface")
 
 
 def check_coarse():
@@ -190,7 +217,9 @@ def check_resample():
 
 
 check_sphere()
-check_tetrahedra()
+check_matched()
+check_round()
+check_slender()
 check_coarse()
 check_traction()
 check_at_a_wall()

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 
 import made_up
-from made_up import ball, box, check, write_run
+from made_up import ball, box, check, filled_part, irregular, write_run
 
 source, folder = made_up.arguments()
 import fsi  # noqa: E402
@@ -63,6 +63,22 @@ def check_image():
         check(apart.mean() < 0.01, f"both draw the same: apart by {apart.mean():.4f} in the mean")
     else:
         print("VTK is not at hand: left out")
+
+
+def check_round():
+    """A ball of four tetrahedra across is drawn with a round outline."""
+    mesh = irregular((1, 1, 1), (9, 9, 9))
+    one = fsi.Snapshot(mesh, 0, {"alpha": filled_part(mesh, (0.52, 0.49, 0.5), 0.25)})
+    body = surfaces.solid_surface(one)
+    for way in ((0.4, 0.36, 1.0), (1.0, 0.2, -0.3)):
+        camera = scene.Camera(np.array((0.52, 0.49, 0.5)), np.array(way), np.array((0, 1, 0)), 0.7, 0.7)
+        for renderer in RENDERERS:
+            drawn = render.image([scene.painted(body, (1, 0, 0, 1))], camera, 280, 280, renderer)[..., 2] < 0.6
+            x, y = np.meshgrid(*2 * [np.arange(280) - 139.5])
+            away, turn = np.hypot(x, y), np.floor(8 * np.arctan2(y, x)).astype(int)
+            outline = np.array([away[drawn & (turn == part)].max() for part in np.unique(turn)]) / 100
+            check(0.96 < outline.min() and outline.max() < 1.04,
+                  f"{renderer}: outline of a ball from {outline.min():.3f} to {outline.max():.3f}")
 
 
 def check_views(run):
@@ -155,6 +171,7 @@ def check_without_display():
 
 
 check_image()
+check_round()
 seam = run_across_a_seam()
 check_views(seam)
 check_small()
