@@ -85,8 +85,13 @@ def chosen_panels(show, tables):
         if not known and not of:
             raise ValueError(f'nothing is called "{word}"; there are {", ".join(KEYS)}, all, and the '
                              "columns of the csv files")
-        found += known or [Panel(word, word, of[0], (word,), "1")]
+        found += known or [Panel(word, word, of[0], (word,), unit_of(word))]
     return found, show != ["all"]
+
+
+def unit_of(column):
+    """The unit of a column of a csv file; 1 for one of a driver of one's own."""
+    return next((panel.unit for panel in PANELS if column in panel.columns), labels.COLUMNS.get(column, "1"))
 
 
 def columns_of(panel, table):
@@ -160,7 +165,11 @@ def series(run, show=None, units=labels.Units()):
     panels, asked = chosen_panels(show, tables)
     panels = [(panel, lines_of(panel, tables[panel.table], asked)) for panel in panels
               if asked or fits(panel, run, dim)]
-    panels = [(panel, lines) for panel, lines in panels if lines]
+    drawn = {}  # each set of columns once, whatever the words that ask for it
+    for panel, lines in panels:
+        if lines:
+            drawn.setdefault((panel.table, *(name for name, _ in lines)), (panel, lines))
+    panels = list(drawn.values())
     if not panels:
         return None
     figure, axes = figure_of(len(panels))
@@ -171,7 +180,8 @@ def series(run, show=None, units=labels.Units()):
         empty = empty_gradient(run) if panel.key == "gradient" else None
         if empty is not None:
             ax.axhline(empty, color="0.45", linestyle="--", linewidth=1, label="empty pipe")
-        _finish(ax, panel, units, dim, lines[0][0] if len(lines) == 1 < len(panel.columns) else "")
+        values = np.concatenate([values for _, values in lines])
+        _finish(ax, panel, units, dim, values, lines[0][0] if len(lines) == 1 < len(panel.columns) else "")
         if len(lines) > 1 or empty is not None:
             _legend(ax, len(lines) + (empty is not None))
     if run.failed():
@@ -184,23 +194,25 @@ def overlay(runs_shown, show=None, units=labels.Units()):
     tables = [with_drift(run) for run in runs_shown]
     dim = runs_shown[0].snapshot(0).dim if runs_shown[0].items else 3
     panels, asked = chosen_panels(show, tables[0])
-    found = []
+    found = {}  # each column once
     for panel in panels:
         if not asked and not fits(panel, runs_shown[0], dim):
             continue
         names = [name for table in tables for name, _ in lines_of(panel, table.get(panel.table, {}), asked)]
-        found += [(panel, name) for name in dict.fromkeys(names)]
+        for name in names:
+            found.setdefault((panel.table, name), (panel, name))
     if not found:
         return None
     figure, axes = figure_of(len(found))
     names = legend(runs_shown)
-    for ax, (panel, column) in zip(axes, found):
+    for ax, (panel, column) in zip(axes, found.values()):
         for table, name, colour in zip(tables, names, style.colours(len(tables))):
             if column in table.get(panel.table, {}):
                 ax.plot(table[panel.table]["t"], _shown(table[panel.table][column], panel),
                         color=colour, label=name)
-        _finish(ax, panel, units, dim, "" if len(panel.columns) == 1 and panel.columns[0] == column
-                else column)
+        values = np.concatenate([table[panel.table][column] for table in tables
+                                 if column in table.get(panel.table, {})])
+        _finish(ax, panel, units, dim, values, "" if panel.columns == (column,) else column)
     handles = [plt.Line2D([], [], color=c) for c in style.colours(len(tables))]
     figure.legend(handles, names, loc="lower left", bbox_to_anchor=(0, 1), ncol=min(3, len(names)))
     return figure
@@ -235,14 +247,17 @@ def _shown(values, panel):
     return np.where(values > 0, values, np.nan) if panel.logarithmic else values
 
 
-def _finish(ax, panel, units, dim, column=""):
+def _finish(ax, panel, units, dim, values, column=""):
+    size = 1.0 if panel.logarithmic else np.nanmax(abs(values), initial=0)
     if panel.logarithmic:
         ax.set_yscale("log")
-    words = units.label(panel.title, panel.unit, dim)
-    ax.set_title(f"{words}: {column}" if column else words, loc="left", y=1.0)
+    words = units.label(panel.title, panel.unit, dim, size)
+    told = f"{words}: {column}" if column else words
+    ax.set_title(told if len(told) < 50 else units.label(column, panel.unit, dim, size), loc="left", y=1.0)
     ax.set_xlabel(units.label("t", "time"))
     ax.locator_params(axis="x", nbins=6)
     ax.ticklabel_format(axis="x", useOffset=False, scilimits=(-3, 4))
     if not panel.logarithmic:
         ax.ticklabel_format(axis="y", useOffset=False, scilimits=(-3, 4))
         ax.yaxis.set_offset_position("right")
+        units.ticks(ax.yaxis, panel.unit, size, dim)

@@ -50,6 +50,7 @@ class Colours:
     high: float
     label: str
     extend: str = "neither"  # where values lie beyond the range, as matplotlib calls it
+    kind: str = "1"  # of its unit
 
     def __call__(self, values):
         span = max(self.high - self.low, 1e-300)

@@ -38,8 +38,10 @@ def frame(ax, cut, units):
     ax.set_aspect("equal")
     ax.set_xlim(cut.low[0], cut.high[0])
     ax.set_ylim(cut.low[1], cut.high[1])
-    ax.set_xlabel(units.label(AXES[cut.across[0]], "length"))
-    ax.set_ylabel(units.label(AXES[cut.across[1]], "length"))
+    size = (cut.high - cut.low).max()
+    for axis, name, setter in zip((ax.xaxis, ax.yaxis), cut.across, (ax.set_xlabel, ax.set_ylabel)):
+        setter(units.label(AXES[name], "length", size=size))
+        units.ticks(axis, "length", size)
     ax.grid(False)
 
 
@@ -47,8 +49,9 @@ def title(cut, units):
     """The time and the place of a section."""
     if cut.snapshot.dim == 2:
         return f"t = {units.number(cut.snapshot.time, 'time')}"
-    digits = 3 - int(np.floor(np.log10((cut.high - cut.low).max())))
-    where = f"   plane {AXES[cut.normal]} = {units.number(round(cut.level, digits) + 0.0, 'length')}"
+    size = (cut.high - cut.low).max()
+    level = round(cut.level, 3 - int(np.floor(np.log10(size)))) + 0.0
+    where = f"   plane {AXES[cut.normal]} = {units.number(level, 'length', size)}"
     return f"t = {units.number(cut.snapshot.time, 'time')}{where}"
 
 
@@ -93,8 +96,9 @@ def flow(run, normal, numbers=None, units=labels.Units(), top=None, relative=Fal
             ax.set_xlabel("")
     if run.failed():
         figure.suptitle(end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
-    figure.colorbar(shades, ax=axes, label=units.field("speed"), shrink=0.5 if wide else 0.9, aspect=30,
+    bar = figure.colorbar(shades, ax=axes, label=units.field("speed", top), shrink=0.5 if wide else 0.9, aspect=30,
                     extend="max" if most > top else "neither", location="bottom" if wide else "right", pad=0.02)
+    units.ticks(bar.ax.xaxis if wide else bar.ax.yaxis, "velocity", top)
     return figure
 
 

@@ -77,7 +77,8 @@ def colours_of(name, values, cmap, look):
     A few values far away from the others do not set the range; the colour bar has an arrow there.
     """
     low, high = look.ranges.get(name) or scene.span(values)
-    return scene.Colours(cmap, low, high, look.units.field(name), scene.beyond(values, low, high))
+    return scene.Colours(cmap, low, high, look.units.field(name, max(abs(low), abs(high))),
+                         scene.beyond(values, low, high), labels.FIELDS[name][2])
 
 
 def build(run, snapshot, look):
@@ -200,7 +201,7 @@ def view(run, number=-1, look=None, scale=1):
     last = number % len(run.items) == len(run.items) - 1
     ax.set_title(time_of(snapshot, look) + (sections.end(run, look.units) if last else ""), loc="left", x=0.01)
     ruler(figure.add_axes((0, below / height, 1, strip / height)), camera, look, strip / inches)
-    colour_bars(figure, bars, below / height)
+    colour_bars(figure, bars, look.units, below / height)
     return figure
 
 
@@ -235,7 +236,7 @@ def ruler(ax, camera, look, share):
         ax.text(*(corner + 1.4 * arm * way), axis, ha="center", va="center", fontsize=8)
 
 
-def colour_bars(figure, bars, below):
+def colour_bars(figure, bars, units, below):
     """A bar for each map in a row below the picture."""
     for i, bar in enumerate(bars):
         share = 1 / len(bars)
@@ -243,6 +244,7 @@ def colour_bars(figure, bars, below):
         mapped = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(bar.low, bar.high), bar.name)
         figure.colorbar(mapped, cax=ax, orientation="horizontal", label=bar.label, extend=bar.extend,
                         ticks=matplotlib.ticker.MaxNLocator(5))
+        units.ticks(ax.xaxis, bar.kind, max(abs(bar.low), abs(bar.high)))
         ax.tick_params(labelsize=8)
 
 
@@ -282,5 +284,5 @@ def over_time(run, look=None, scale=1, most=6):
     ruler(figure.add_axes((0, below / height, 1 / columns, strip / height)), cameras[0], look, strip / wide)
     figure.suptitle(r"surface of the solid, $\alpha$ = 0.5" + sections.gone(run, numbers, look.units),
                     x=0.01, y=1 - 0.02 / height, ha="left", va="top", fontsize=9.5)
-    colour_bars(figure, bars, below / height)
+    colour_bars(figure, bars, look.units, below / height)
     return figure

@@ -64,6 +64,15 @@ def check_series():
           "volume" in told, f"asked for: shown, by key and by column: {told}")
     check("angle of the axis to x [°]" not in titles(plots.series(make("ball", "10", "sphere"))),
           "a round solid has no axis")
+    told = titles(plots.series(ring, ["min_eig_B", "strain", "min_eig_B"]))
+    check(told == ["min_eig_B"], f"asked for twice: shown once: {told}")
+    small = make("in metres", "10")
+    small.tables["solid"].update(x=1e-3 * TIME, volume=1e-12 * (1 + TIME))
+    figure = plots.series(small, ["x", "volume", "det"], plots.labels.Units("m", "s", "kg"))
+    figure.canvas.draw()
+    ticks = [tick.get_text() for tick in figure.axes[0].get_yticklabels()]
+    check(titles(figure) == ["x [mm]", "volume [µm³]", "det B"] and "0.4" in ticks,
+          f"a column has its unit, with a prefix: {titles(figure)}, {ticks}")
     try:
         plots.series(ring, ["angel"])
         check(False, "a word that is not known is refused")
@@ -117,6 +126,8 @@ def check_overlay():
           f"the legend tells what differs: {names}")
     check(len(titles(figure)) == 3 and all(len(axes.lines) == 3 for axes in figure.axes[:3]),
           "a panel for each column, a line for each run")
+    told = titles(plots.overlay(runs, ["strain", "x", "min_eig_B"], plots.labels.Units("cm", "s", "g")))
+    check(told == ["smallest eigenvalue of B", "x [cm]"], f"each column once, with its unit: {told}")
     command = [sys.executable, os.path.join(source, "examples", "draw.py"), *(run.folder for run in runs)]
     said = subprocess.run(command + ["--show", "angle", "--output", folder], capture_output=True, text=True)
     check(said.returncode == 0 and os.path.exists(os.path.join(folder, "overlay.png")), "the command draws it")

@@ -65,10 +65,21 @@ def check_units():
         for column in panel.columns:
             name = column.replace("*", "NAME")
             check(told.get(name) == panel.unit, f"{name}: {panel.unit}, in the reference {told.get(name)}")
+    for name, unit in labels.COLUMNS.items():
+        check(told.get(name) == unit, f"{name}: {unit}, in the reference {told.get(name)}")
     units = labels.Units("m", "s", "kg")
     check(units("pressure") == "Pa" and units("force / volume") == "Pa/m" and units("1 / time²") == "1/s²" and
           units("volume / time", 2) == "m²/s" and units("1") == "", "units in SI")
+    for value, kind, text in ((1e-3, "length", "1 mm"), (1e-4, "length", "0.1 mm"), (2e-5, "length", "20 µm"),
+                              (0.5, "length", "0.5 m"), (3e5, "length", "3e+05 m"), (0, "length", "0 m"),
+                              (0.04, "velocity", "40 mm/s"), (3e-11, "volume", "0.03 mm³"), (2e5, "pressure", "200 kPa"),
+                              (4e-12, "energy", "4 pJ"), (3e-4, "time", "0.0003 s"), (2e4, "force / volume", "20 kPa/m")):
+        check(units.number(value, kind) == text, f"{value:g} as {units.number(value, kind)}")
+    check(units.label("x", "length", size=0.002) == "x [mm]" and units.number(3e-5, "length", 2e-3) == "0.03 mm",
+          "one prefix for all values of an axis")
     units = labels.Units("mm", "s", "mg")
+    check(units.number(1e-4, "length") == "0.0001 mm" and labels.Units().number(1e-4, "length") == "0.0001",
+          "a prefix for metres alone")
     check(units("pressure") == "mg/(mm s²)" and units.label("speed", "velocity") == "speed [mm/s]", "in others")
     check(labels.Units().label("speed", "velocity") == "speed", "without units: none")
 
