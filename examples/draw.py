@@ -12,7 +12,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 import fsi  # noqa: E402
 from fsi import film, labels, plots, sections, style, views  # noqa: E402
 
-
 def words(known):
     """What takes words with commas between them, all of them known."""
     def split(text):
@@ -72,15 +71,24 @@ def print_numbers(run):
     for name, data in plots.with_drift(run).items():
         if not os.path.exists(os.path.join(run.folder, name + ".csv")):
             continue
-        ends = [f"{c} {data[c][-1]:.5g}" for c in
-                ("x", "y", "z", "angle", "taylor", "pressure_gradient", "flow_rate", "kinetic_energy",
-                 "elastic_energy") if c in data and data[c][-1] != 0]
+        ends = last_values(data)
         if ends:
             print(f"  {name}.csv ends with " + ", ".join(ends))
         if "min_eig_B" in data:
             print(f"  {name}.csv holds det B from {data['det_B_min'].min():.6g} to {data['det_B_max'].max():.6g}, "
                   f"eigenvalues of B down to {data['min_eig_B'].min():.4g}, a change of volume of "
                   f"{abs(data['drift']).max():.1e}")
+
+
+def last_values(data):
+    """What a table ends with, in words. Where a part of the solid has left, the shape of the rest is no result."""
+    out = data["volume_out"][-1] if "volume_out" in data else 0.0
+    gone = out / (data["volume"][-1] + out) if out > 0 else 0.0
+    cut = gone > 0.005
+    found = [f"{c} {data[c][-1]:.5g}" for c in
+             ("x", "y", "z", "angle", "taylor", "pressure_gradient", "flow_rate", "kinetic_energy",
+              "elastic_energy") if c in data and data[c][-1] != 0 and not (cut and c in ("angle", "taylor"))]
+    return found + [f"of what is left inside: {100 * gone:.3g} % has left"] * cut
 
 
 def pictures(run, wish):

@@ -263,6 +263,16 @@ class Run:
         return np.array([np.interp(time, solid["t"], solid[axis]) for axis in "xyz"])
 
 
+    def inside(self, time):
+        """The part of the solids' volume at a time that has not left through an opening, by their tables."""
+        several = [table for name, table in self.tables.items() if name.startswith("solid_")]
+        known = [table for table in several or [self.tables["solid"]]
+                 if "volume_out" in table and "volume" in table and len(table["t"])]
+        volume, gone = (sum(np.interp(time, table["t"], table[name]) for table in known)
+                        for name in ("volume", "volume_out"))
+        return volume / (volume + gone) if volume + gone > 0 else 1.0
+
+
 def read_mesh(path, pairs=()):
     """The mesh of a field file; pairs: names of the patches that are joined, two by two."""
     folder = os.path.dirname(os.path.abspath(path))

@@ -199,14 +199,17 @@ def view(run, number=-1, look=None, scale=1):
     ax = figure.add_axes((0, (below + strip) / height, 1, inches * aspect / height))
     show(ax, picture)
     last = number % len(run.items) == len(run.items) - 1
-    ax.set_title(time_of(snapshot, look) + (sections.end(run, look.units) if last else ""), loc="left", x=0.01)
+    ax.set_title(time_of(run, snapshot, look) + (sections.end(run, look.units) if last else ""), loc="left", x=0.01)
     ruler(figure.add_axes((0, below / height, 1, strip / height)), camera, look, strip / inches)
     colour_bars(figure, bars, look.units, below / height)
     return figure
 
 
-def time_of(snapshot, look):
-    return f"t = {look.units.number(snapshot.time, 'time')}"
+def time_of(run, snapshot, look):
+    """The time, and how much of the solid is inside where a part has left: what is drawn is cut off there."""
+    left = run.inside(snapshot.time)
+    part = "" if left > 0.995 or not snapshot.has_solid() else f", {100 * left:.0f} % inside"
+    return f"t = {look.units.number(snapshot.time, 'time')}{part}"
 
 
 def show(ax, picture):
@@ -280,7 +283,7 @@ def over_time(run, look=None, scale=1, most=6):
         ax = figure.add_axes((i % columns / columns, bottom / height, 1 / columns, tall / height))
         colours = bars[0](body.values[look.colour]) if bars else (*matplotlib.colors.to_rgb(style.SOLID), 1)
         show(ax, render.image([scene.painted(body, colours)], camera, *pixels, look.renderer))
-        ax.set_title(time_of(snapshot, look), loc="left", x=0.02)
+        ax.set_title(time_of(run, snapshot, look), loc="left", x=0.02)
     ruler(figure.add_axes((0, below / height, 1 / columns, strip / height)), cameras[0], look, strip / wide)
     figure.suptitle(r"surface of the solid, $\alpha$ = 0.5" + sections.gone(run, numbers, look.units),
                     x=0.01, y=1 - 0.02 / height, ha="left", va="top", fontsize=9.5)

@@ -96,6 +96,19 @@ def check_own_table():
     check(said.returncode == 0, f"the command draws it: {said.stderr}")
 
 
+def check_outlet():
+    """Of a solid of which a part has left the command tells no shape, and the run how much is inside."""
+    run = make("outlet", "10")
+    command = [sys.executable, os.path.join(source, "examples", "draw.py"), run.folder, "--show", "x"]
+    said = subprocess.run(command, capture_output=True, text=True).stdout
+    check("angle 55" in said and "left inside" not in said and run.inside(1.0) == 1, f"all of it inside: {said}")
+    table = {**solid(), "volume": 1 - 0.75 * TIME, "volume_out": 0.75 * TIME}
+    run = make("outlet", "10", tables={"solid": table})
+    said = subprocess.run(command, capture_output=True, text=True).stdout
+    check("angle" not in said and "of what is left inside: 75 % has left" in said and abs(run.inside(0.4) - 0.7) < 1e-9,
+          f"a part has left: {said}")
+
+
 def check_failed():
     """A run that failed says so on every picture; one that goes on does not."""
     run = make("failed", "10")
@@ -155,6 +168,7 @@ def check_sections():
 
 check_series()
 check_own_table()
+check_outlet()
 check_failed()
 check_empty_pipe()
 check_overlay()
