@@ -29,6 +29,13 @@ def units(text):
     return labels.Units(*names)
 
 
+def direction(text):
+    found = tuple(float(word) for word in text.split(","))
+    if len(found) != 3 or not 0 < sum(part * part for part in found) < float("inf"):
+        raise argparse.ArgumentTypeError("three numbers are expected that are not all 0")
+    return found
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -48,6 +55,9 @@ def arguments():
                         "surface on which Q has this value; without a value: the strongest vortices")
     parser.add_argument("--view", choices=("auto", "body", "vessel"), default="auto", help="what view.png "
                         "holds: the surroundings of the body, or all of the vessel")
+    parser.add_argument("--camera", type=direction, metavar="X,Y,Z", help="the direction from which one looks "
+                        "in 3-D, --camera=-1,0.5,0 where the first number is negative; not given: a little "
+                        "aside of the normal of --plane")
     parser.add_argument("--relative", action="store_true", help="streamlines of flow.png and view.png as "
                         "seen by who moves with the body")
     parser.add_argument("--time", type=float, help="view.png at the field file nearest to this time; not "
@@ -84,7 +94,7 @@ def last_values(data):
     """What a table ends with, in words. Where a part of the solid has left, the shape of the rest is no result."""
     out = data["volume_out"][-1] if "volume_out" in data else 0.0
     gone = out / (data["volume"][-1] + out) if out > 0 else 0.0
-    cut = gone > 0.005
+    cut = bool(gone > 0.005)
     found = [f"{c} {data[c][-1]:.5g}" for c in
              ("x", "y", "z", "angle", "taylor", "pressure_gradient", "flow_rate", "kinetic_energy",
               "elastic_energy") if c in data and data[c][-1] != 0 and not (cut and c in ("angle", "taylor"))]
@@ -110,7 +120,9 @@ def pictures(run, wish):
 
 
 def look_of(wish, normal):
-    return views.Look(colour=wish.colour, parts=wish.parts, q=wish.q, view=wish.view, normal=normal,
+    if wish.camera and not wish.plane:  # the slice faces the camera
+        normal = max("xyz", key=lambda axis: abs(wish.camera["xyz".index(axis)]))
+    return views.Look(camera=wish.camera, colour=wish.colour, parts=wish.parts, q=wish.q, view=wish.view, normal=normal,
                       relative=wish.relative, renderer=wish.renderer, units=wish.units)
 
 

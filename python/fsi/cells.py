@@ -103,6 +103,26 @@ def crossing(corners, value):
     return ends, part, number.reshape(-1, size - 1)
 
 
+def upper(triangles, value):
+    """The part of triangles in which the linear value is not below 0: (ends [3 m, 2], part [3 m]), three
+    points to a triangle, each as those of crossing."""
+    above = value[triangles] >= 0
+    count = above.sum(axis=1)
+    # A triangle with one corner above or below is turned until that corner is its first one.
+    turns = (np.where(count == 1, above.argmax(axis=1), (~above).argmax(axis=1))[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(triangles, turns, axis=1).T
+    one, two, all_of = (np.flatnonzero(count == k) for k in (1, 2, 3))
+    keep = np.stack([triangles[all_of]] * 2, axis=2)  # each point between two, here one and the same
+    ab, ac = np.stack([a, b], axis=1), np.stack([a, c], axis=1)
+    bb, cc = np.stack([b, b], axis=1), np.stack([c, c], axis=1)
+    aa = np.stack([a, a], axis=1)
+    pairs = np.concatenate([keep] + [np.stack([part[some] for part in parts], axis=1) for some, parts in
+                                     ((one, (aa, ab, ac)), (two, (ab, bb, cc)), (two, (ab, cc, ac)))])
+    ends = pairs.reshape(-1, 2)
+    apart = value[ends[:, 0]] - value[ends[:, 1]]
+    return ends, value[ends[:, 0]] / np.where(apart == 0, 1, apart) * (apart != 0)
+
+
 def matched(mesh, fraction, value, rounds=12, most=0.4):
     """Of values at the points those whose linear course in the tetrahedra of each cell fills the cell by its
     fraction, as near as can be.

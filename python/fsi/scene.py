@@ -127,14 +127,22 @@ class Grid:
             found = cells.resample(parts.extend(mesh.points), parts.corners,
                                    parts.extend(snapshot.at_points(name)), mesh.low, mesh.high, shape)
             self.values = np.where(np.isnan(found), self.values, found)
+        self.known = ~np.isnan(self.values[..., :1]) + 0.0
         self.values = grown(self.values)
 
     def __call__(self, places):
         """Values at places [n, 3], linear between the nodes; NaN outside."""
+        return self._linear(self.values, places)
+
+    def inside(self, places):
+        """Whether places are in the mesh, to half a step of the grid."""
+        return self._linear(self.known, places)[:, 0] > 0.5
+
+    def _linear(self, values, places):
         periods = np.where(self.period > 0, np.floor((places - self.low) / np.where(
             self.period > 0, self.period, 1)), 0)
         node = (places - periods * self.period - self.low) / self.step
-        shape = np.array(self.values.shape[:3])
+        shape = np.array(values.shape[:3])
         base = np.floor(np.nan_to_num(node, nan=-1)).astype(int)
         out = ((base < 0) | (base > shape - 2)).any(axis=1)
         base = np.clip(base, 0, shape - 2)
@@ -142,7 +150,7 @@ class Grid:
         total = 0
         for corner in np.ndindex(2, 2, 2):
             weight = np.prod(np.where(corner, share, 1 - share), axis=1)
-            total = total + weight[:, None] * self.values[tuple((base + corner).T)]
+            total = total + weight[:, None] * values[tuple((base + corner).T)]
         total[out] = np.nan
         return total
 

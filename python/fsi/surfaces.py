@@ -308,25 +308,21 @@ def cap(snapshot, value, carry=()):
         room = 1e-6 * mesh.period[axis]
         ends = (at < mesh.low[axis] + room).all(axis=1) | (at > mesh.high[axis] - room).all(axis=1)
         triangles = triangles[~ends]
-    above = value[triangles] >= 0
-    count = above.sum(axis=1)
-    # A triangle with one corner above or below is turned until that corner is its first one.
-    turns = (np.where(count == 1, above.argmax(axis=1), (~above).argmax(axis=1))[:, None] + np.arange(3)) % 3
-    a, b, c = np.take_along_axis(triangles, turns, axis=1).T
-    one, two, all_of = (np.flatnonzero(count == k) for k in (1, 2, 3))
-    keep = np.stack([triangles[all_of]] * 2, axis=2)  # each point between two, here one and the same
-    ab, ac = np.stack([a, b], axis=1), np.stack([a, c], axis=1)
-    bb, cc = np.stack([b, b], axis=1), np.stack([c, c], axis=1)
-    aa = np.stack([a, a], axis=1)
-    pairs = np.concatenate([keep] + [np.stack([part[some] for part in parts], axis=1) for some, parts in
-                                     ((one, (aa, ab, ac)), (two, (ab, bb, cc)), (two, (ab, cc, ac)))])
-    ends = pairs.reshape(-1, 2)
-    apart = value[ends[:, 0]] - value[ends[:, 1]]
-    part = np.clip(value[ends[:, 0]] / np.where(apart == 0, 1, apart), *ENDS)
+    ends, part = cells.upper(triangles, value)
+    part = np.clip(part, *ENDS)
     found = Surface(cells.between(places, ends, part), np.arange(len(ends)).reshape(-1, 3))
     for other in carry:
         found.values[other] = cells.between(extended(snapshot.at_points(other)), ends, part)
     return found
+
+
+def clipped(surface, value):
+    """The part of a surface in which values at its points are not below 0."""
+    ends, part = cells.upper(surface.triangles, value)
+    first, number, _ = cells.distinct(np.sort(ends, axis=1))
+    ends, part = ends[first], part[first]
+    return Surface(cells.between(surface.points, ends, part), number.reshape(-1, 3),
+                   {name: cells.between(values, ends, part) for name, values in surface.values.items()})
 
 
 @functools.lru_cache(maxsize=4)

@@ -23,6 +23,7 @@ class Look:
     q: float = None  # value of the isosurface of Q; None: none; 0: one that shows the strongest vortices
     view: str = "auto"  # body: follows it; vessel: all of it; auto: body in a periodic vessel
     normal: str = "z"
+    camera: tuple = None  # from where one looks; None: a little aside of the normal
     relative: bool = False  # streamlines as one sees them who moves with the body
     renderer: str = "auto"
     units: labels.Units = field(default_factory=labels.Units)
@@ -32,6 +33,9 @@ class Look:
 
     def eye(self):
         """From where one looks, and what is upwards."""
+        if self.camera is not None:
+            steep = abs(self.camera[1]) > 0.9 * np.linalg.norm(self.camera)
+            return self.camera, (0, 0, 1) if steep else (0, 1, 0)
         return {"z": ((0.4, 0.36, 1.0), (0, 1, 0)), "y": ((0.4, -1.0, 0.36), (0, 0, 1)),
                 "x": ((1.0, 0.36, -0.4), (0, 1, 0))}[self.normal]
 
@@ -56,15 +60,17 @@ def window(snapshot, look, about, size=0.0):
 
 def within(surface, box, mesh):
     """The part of a surface in a box, with its copies along the periods; cut off at the box."""
-    found = []
+    found, room = [], 1e-9 * np.ptp(box, axis=0).max()
     for step in np.ndindex(*np.where(mesh.period > 0, 5, 1)):
         shift = (np.array(step) - np.where(mesh.period > 0, 2, 0)) * mesh.period
         copy = surface.moved(shift)
         corners = copy.points[copy.triangles]
-        inside = ((corners.max(axis=1) > box[0] - 1e-9) & (corners.min(axis=1) < box[1] + 1e-9)).all(axis=1)
+        inside = ((corners.max(axis=1) > box[0] - room) & (corners.min(axis=1) < box[1] + room)).all(axis=1)
         if inside.any():
             part = copy.part(inside)
-            part.points = np.clip(part.points, *box)  # what sticks out by a part of a cell
+            for axis in range(3):
+                part = surfaces.clipped(part, part.points[:, axis] - box[0, axis] + room)
+                part = surfaces.clipped(part, box[1, axis] - part.points[:, axis] + room)
             found.append(part)
     if not found:
         return surface.part(np.zeros(0, int))
@@ -134,6 +140,8 @@ def set_behind(layers, body, look, camera):
     A parallel projection shows them where they were, and they hide nothing of the body.
     """
     axis, away = cuts.AXES.index(look.normal), camera.axes()[2]
+    if abs(away[axis]) < 0.1:  # seen from its edge
+        return
     place = layers[-1].points[:1, axis]
     depth = ((place - body.points[:, axis]) / away[axis]).max(initial=0)
     for layer in layers:
@@ -164,9 +172,16 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
     size = min(camera.width, camera.height)
     # To both sides far enough to come to the wall, an inlet or an outlet.
     lines = [piece for line in scene.streamlines(grid, seeds, 3 * camera.width, 480)
-             for piece in pieces(line, ((line >= box[0]) & (line <= box[1])).all(axis=1))]
+             for piece in pieces(line, ((line >= box[0]) & (line <= box[1])).all(axis=1) & inner(grid.inside(line)))]
     surface = scene.tubes(lines, 0.0028 * size)
     return scene.painted(surface, (0.25, 0.3, 0.36, 1))
+
+
+def inner(inside):
+    """All from the first to the last point that is inside."""
+    found = np.flatnonzero(inside)
+    numbers = np.arange(len(inside))
+    return (numbers >= found.min(initial=len(inside))) & (numbers <= found.max(initial=-1))
 
 
 def pieces(line, kept, least=13):

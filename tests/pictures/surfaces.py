@@ -201,6 +201,20 @@ def check_wall():
           "of a box all is wall")
 
 
+def check_clipped():
+    points, *rest = box((1, 1, 1), (5, 5, 5), "tet")
+    surface = surfaces.outside(runs.Mesh(points, *rest))
+    surface.values["x"] = surface.points[:, 0]
+    part = surfaces.clipped(surface, surface.points @ (1.0, 0.5, 0) - 0.63)
+    rim, count = part.edges()
+    rim = part.points[rim[count == 1].ravel()]
+    check(abs(rim @ (1.0, 0.5, 0) - 0.63).max() < 1e-12, "a surface is cut off along a plane")
+    check(abs(part.values["x"] - part.points[:, 0]).max() < 1e-12 and (part.edges()[1] <= 2).all(),
+          "with its values, and in one piece")
+    sides = (1 - 0.63, 1 - 0.13, 1.0, 2 * (1 - 0.38))  # y = 0, y = 1, x = 1, and both of z
+    check(abs(part.area() - sum(sides)) < 1e-12, f"its area {part.area():.6f}")
+
+
 def check_distinct():
     rows = np.array([[2, 0, 7], [1, 5, 5], [2, 0, 7], [1, 5, 4]])
     first, which, count = cells.distinct(rows)
@@ -226,6 +240,7 @@ check_at_a_wall()
 check_seam()
 check_cuts()
 check_wall()
+check_clipped()
 check_distinct()
 check_resample()
 sys.exit(1 if made_up.failures else 0)

@@ -114,6 +114,12 @@ def check_small():
     check(camera.width < 3.5, f"near a small body: {camera.width:.2f} wide")
     whole = views.build(run, run.snapshot(0), views.Look(renderer="plain", colour="none"))[1]
     check(whole.width > 4, f"all of the vessel: {whole.width:.2f} wide")
+    side = views.build(run, run.snapshot(0), views.Look(renderer="plain", colour="none", camera=(1, 0, 0), normal="x"))[1]
+    check(np.allclose(side.axes(), [[0, 0, -1], [0, 1, 0], [1, 0, 0]]) and side.width < 2.2,
+          f"seen from where it is asked for: {side.width:.2f} wide")
+    above = views.Look(camera=(0, 2, 0), normal="x", renderer="plain", pixels=200)
+    check(above.eye()[1] == (0, 0, 1) and len(views.build(run, run.snapshot(0), above)[0]) == 4,
+          "from above, with the slice on edge")
     views.view(run, 0, look)
     grid = scene.Grid(run.snapshot(0), "u")
     ends = [np.ptp(line[:, 0]) for line in scene.streamlines(grid, [[2, 1.02, 1.9], [2, 0.04, 1]], 12.0, 480)]
@@ -156,7 +162,7 @@ def check_page(run):
     options = set(re.findall(r"^  (--[a-z]+)", told, re.M))
     named = set(re.findall(r"(--[a-z]+)(?![\w-])", page)) - {"--help"}
     check(len(options) > 10 and options == named, f"the page names every option: {options ^ named}")
-    for wrong in (["--parts", "wal"], ["--units", "m,s"]):
+    for wrong in (["--parts", "wal"], ["--units", "m,s"], ["--camera", "0,0,0"], ["--camera", "1,2"]):
         said = subprocess.run(draw + [run.folder, *wrong], capture_output=True, text=True)
         check(said.returncode == 2 and "error: argument" in said.stderr, f"refused: {wrong}")
 
