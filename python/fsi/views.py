@@ -171,17 +171,21 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
     seeds = scene.apart(places, count)
     size = min(camera.width, camera.height)
     # To both sides far enough to come to the wall, an inlet or an outlet.
-    lines = [piece for line in scene.streamlines(grid, seeds, 3 * camera.width, 480)
-             for piece in pieces(line, ((line >= box[0]) & (line <= box[1])).all(axis=1) & inner(grid.inside(line)))]
+    lines = [trimmed(line, grid) for line in scene.streamlines(grid, seeds, 3 * camera.width, 480)]
+    lines = [piece for line in lines for piece in pieces(line, ((line >= box[0]) & (line <= box[1])).all(axis=1))]
     surface = scene.tubes(lines, 0.0028 * size)
     return scene.painted(surface, (0.25, 0.3, 0.36, 1))
 
 
-def inner(inside):
-    """All from the first to the last point that is inside."""
-    found = np.flatnonzero(inside)
-    numbers = np.arange(len(inside))
-    return (numbers >= found.min(initial=len(inside))) & (numbers <= found.max(initial=-1))
+def trimmed(line, grid):
+    """A line without what sticks out of the mesh at its ends, up to two steps of the grid; a line along a wall,
+    where the grid does not tell, stays."""
+    inside = np.flatnonzero(grid.inside(line))
+    most = 2 * grid.step.max() / np.linalg.norm(line[1] - line[0])
+    if len(inside) == 0:
+        return line
+    first, beyond = inside[0], len(line) - 1 - inside[-1]
+    return line[first if first <= most else 0:len(line) - (beyond if beyond <= most else 0)]
 
 
 def pieces(line, kept, least=13):

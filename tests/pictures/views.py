@@ -126,6 +126,12 @@ def check_small():
     check(len(ends) == 2 and min(ends) > 3.9, f"streamlines go from end to end: {ends}")
 
 
+    beyond = np.linspace((2, 1, 1), (4.05, 1, 1), 60)
+    check(3.95 < views.trimmed(beyond, grid)[-1, 0] <= 4, "what sticks out at an opening is left out")
+    wall = beyond + (0, 1.02, 0)
+    check(len(views.trimmed(wall, grid)) == 60, "a line along a wall stays")
+
+
 def check_speck():
     """What is left of a solid in one cell has no surface, and stops no picture."""
     arrays = box((1, 1, 1), (6, 6, 6))
