@@ -124,8 +124,6 @@ def check_small():
     grid = scene.Grid(run.snapshot(0), "u")
     ends = [np.ptp(line[:, 0]) for line in scene.streamlines(grid, [[2, 1.02, 1.9], [2, 0.04, 1]], 12.0, 480)]
     check(len(ends) == 2 and min(ends) > 3.9, f"streamlines go from end to end: {ends}")
-
-
     beyond = np.linspace((2, 1, 1), (4.05, 1, 1), 60)
     check(3.95 < views.trimmed(beyond, grid)[-1, 0] <= 4, "what sticks out at an opening is left out")
     wall = beyond + (0, 1.02, 0)
