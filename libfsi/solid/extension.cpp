@@ -132,10 +132,7 @@ void Extension::fourth_difference_filter(CellField<SymTensor>& T, CellField<SymG
     for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
       if (rings_.within(0, k)) add(image(T[k], n), image(along(slope[k], image(r, n)), n), r);
     });
-    // Half of it leaves G* = 10 rough on triangles, five times it costs the disc's error a tenth.
-    constexpr Real C = 0.1;
-    const Real rate = std::min(speed / cell_size(mesh_, c), recovery);
-    change_.push_back(((1 - std::exp(-C * rate * dt)) / weights) * sum);
+    change_.push_back((alternating_part(speed, recovery, cell_size(mesh_, c), dt) / weights) * sum);
   }
   for (std::size_t i = 0; i < change_.size(); ++i) T[known_[i]] += change_[i];
   for (const Index c : known_) slope[c] = {};

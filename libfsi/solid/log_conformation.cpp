@@ -125,14 +125,16 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
 void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_flow = 0.2;
   constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
-  // In the zone the map's B is rougher, and fourth_difference_filter damps the waves.
-  constexpr Real by_flow_in_zone = 0.05;
+  // In the zone the map's B is rougher, and filters damp the waves.
+  constexpr Real by_flow_in_zone = 0.05, by_wave_in_zone = 0.02;
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
-    const Real courant = courant_rate(snapshot.phi, mesh_, c);
-    const Real rate = by_fit(snapshot, c)
-                          ? by_flow_in_zone * courant
-                          : by_flow * courant + by_wave * snapshot.wave_speed / cell_size(mesh_, c);
+    const bool fit = by_fit(snapshot, c);
+    // At a given velocity the map of the zone is worth less than the strain: it is carried by cells
+    // whose velocity the boundary holds on one side.
+    const Real of_wave = !fit ? by_wave : snapshot.one_sided->near_wall(c) ? 0 : by_wave_in_zone;
+    const Real rate = (fit ? by_flow_in_zone : by_flow) * courant_rate(snapshot.phi, mesh_, c) +
+                      of_wave * snapshot.wave_speed / cell_size(mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));
     if (memory.is_set[c] > 0 && part > 0) psi[c] += part * (log(memory.B(c, 1)) - psi[c]);
   }

@@ -23,8 +23,13 @@ namespace fsi::solid {
 ///   xi <- xi + k h^2 grad xi . grad J,   k = 0.06 dt (rate of the cell's Courant number),
 /// which lets J diffuse out of the solid, J = 1 around it. Beside psi k is twice that in triangles
 /// and tetrahedra, and the rate of the wave, c / h, adds to that of the flow. The wave's part moves
-/// cells with fluid among their vertex neighbours along the normal of the surface alone. Nothing
-/// else relaxes: what returns to its place is undeformed again.
+/// cells with fluid among their vertex neighbours along the normal of the surface alone. Beside psi
+/// and in the zone of simplices the map loses what alternates from cell to cell, fourth differences
+///   xi <- xi + alternating_part sum w (xi_k - xi - (g + g_k) / 2 . r) / sum w,   w = 1 / |r|^2,
+/// over the known vertex neighbours k and their images, g = grad xi: as psi does there
+/// (`Extension::fourth_difference_filter`). A velocity that alternates makes no stress that lasts,
+/// and would take the map apart. Nothing else relaxes: what returns to its place is undeformed
+/// again.
 class ReferenceMap {
  public:
   /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
@@ -103,6 +108,8 @@ class ReferenceMap {
   Tensor gradient(Index c) const;
   /// What the error of volume moves the map by in dt.
   Vec3 towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const;
+  /// What the filter moves the map by in dt.
+  Vec3 without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const;
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;

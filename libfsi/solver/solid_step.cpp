@@ -32,6 +32,10 @@ void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellFiel
   body.mesh.halo.update(u);
 }
 
+const solid::InterfaceGradient* one_sided_of(const Body& body) {
+  return body.interface_gradient ? &*body.interface_gradient : nullptr;
+}
+
 /// What the flow does to psi or to a map of the body, less what stands at its surface.
 solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
                                 const FlowAround& flow) {
@@ -41,7 +45,7 @@ solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
           .L = by_flux ? flow.by_flux->L : L,
           .stencil = flow.pressure.cells,
           .weights = body.weights,
-          .one_sided = body.interface_gradient ? &*body.interface_gradient : nullptr,
+          .one_sided = one_sided_of(body),
           .wave_speed = body.wave_speed(),
           .recovery = body.G / body.mu,
           .memory = body.remembers() ? &*body.memory : nullptr};
@@ -136,7 +140,9 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
                                      .L = L,
                                      .stencil = flow.pressure.cells,
                                      .weights = body.weights,
-                                     .wave_speed = body.wave_speed()};
+                                     .one_sided = one_sided_of(body),
+                                     .wave_speed = body.wave_speed(),
+                                     .recovery = body.G / body.mu};
   map.transport(body.fraction_of_memory(), snapshot, body.dt, body.grad);
 }
 
