@@ -167,9 +167,8 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
-  constexpr Real apart = 0.5;  // of the larger
-  // Of G times the volume. The map of triangles and tetrahedra tells strains to some per cent.
-  const Real matters = body.zone.all() ? 5e-3 : 1e-3;
+  constexpr Real apart = 0.5;     // of the larger
+  constexpr Real matters = 1e-3;  // of G times the volume
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
   // What has left tells no shape.
   if (body.map() != nullptr && !leaves(body) && !said.forgetful &&

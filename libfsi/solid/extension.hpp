@@ -19,8 +19,8 @@ namespace fsi::solid {
 inline constexpr Real alpha_known = 0.5;
 
 /// The part of what alternates from cell to cell that psi and the map lose in a time dt,
-///   1 - exp(-C r dt),   r = min(speed / h, recovery),   C = 0.1;
-/// speed, recovery: of a wave of the cells' length, where viscosity does not matter and where it
+///   1 - exp(-C r dt),   r = min(speed / h, recovery),   C = 0.1.
+/// speed, recovery: of a wave as long as a cell, where viscosity does not matter and where it
 /// rules. Half of C leaves G* = 10 rough on triangles, five times C costs the disc's error a tenth.
 inline Real alternating_part(Real speed, Real recovery, Real h, Real dt) {
   constexpr Real C = 0.1;

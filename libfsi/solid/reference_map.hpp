@@ -24,11 +24,11 @@ namespace fsi::solid {
 /// which lets J diffuse out of the solid, J = 1 around it. Beside psi k is twice that in triangles
 /// and tetrahedra, and the rate of the wave, c / h, adds to that of the flow. The wave's part moves
 /// cells with fluid among their vertex neighbours along the normal of the surface alone. Beside psi
-/// and in the zone of simplices the map loses what alternates from cell to cell, fourth differences
-///   xi <- xi + alternating_part sum w (xi_k - xi - (g + g_k) / 2 . r) / sum w,   w = 1 / |r|^2,
-/// over the known vertex neighbours k and their images, g = grad xi: as psi does there
-/// (`Extension::fourth_difference_filter`). A velocity that alternates makes no stress that lasts,
-/// and would take the map apart. Nothing else relaxes: what returns to its place is undeformed
+/// and in the zone of simplices the map loses what alternates from cell to cell, as psi does there
+/// (`Extension::fourth_difference_filter`). Over the known vertex neighbours k and their images,
+///   xi <- xi + alternating_part sum w (xi_k - xi - (g + g_k) / 2 . r) / sum w,
+/// g = grad xi, w = 1 / |r|^2. A velocity that alternates makes no stress that lasts, and would
+/// take the map apart. Nothing else relaxes: what returns to its place is undeformed
 /// again.
 class ReferenceMap {
  public:
