@@ -12,36 +12,45 @@
 namespace fsi {
 namespace {
 
-using Point = std::array<Real, 3>;
-using Side = std::array<Point, 2>;
+/// A corner of a face. Points joined by a period have the same number.
+struct Corner {
+  Index number;
+  Vec3 x;
+};
+using Face = std::vector<Corner>;
+using Side = std::array<Index, 2>;
 
-Vec3 vector(const Point& p) { return {p[0], p[1], p[2]}; }
+Face face_of(Index f, const Mesh& mesh) {
+  Face face;
+  for (const Index p : mesh.face_points[f]) face.push_back({mesh.vertex_id[p], mesh.points[p]});
+  return face;
+}
 
 /// The corners of a patch's faces, of all ranks.
-std::vector<std::vector<Point>> faces_of(const Patch& patch, const Mesh& mesh) {
+std::vector<Face> faces_of(const Patch& patch, const Mesh& mesh) {
   std::vector<Real> mine;
   for (Index f = patch.begin; f < patch.end; ++f) {
     mine.push_back(static_cast<Real>(mesh.face_points[f].size()));
-    for (const Index p : mesh.face_points[f])
-      for (int i = 0; i < 3; ++i) mine.push_back(mesh.points[p][i]);
+    for (const auto& [number, x] : face_of(f, mesh))
+      mine.insert(mine.end(), {static_cast<Real>(number), x.x, x.y, x.z});
   }
   const std::vector<Real> all = gathered(mine);
-  std::vector<std::vector<Point>> faces;
+  std::vector<Face> faces;
   for (std::size_t at = 0; at < all.size();) {
     const auto corners = static_cast<std::size_t>(all[at++]);
-    std::vector<Point>& face = faces.emplace_back();
-    for (std::size_t i = 0; i < corners; ++i, at += 3)
-      face.push_back({all[at], all[at + 1], all[at + 2]});
+    Face& face = faces.emplace_back();
+    for (std::size_t i = 0; i < corners; ++i, at += 4)
+      face.push_back({static_cast<Index>(all[at]), {all[at + 1], all[at + 2], all[at + 3]}});
   }
   return faces;
 }
 
 /// In 2-D the ends of a face, each twice.
-std::vector<Side> sides_of(const std::vector<Point>& face) {
-  if (face.size() == 2) return {{face[0], face[0]}, {face[1], face[1]}};
+std::vector<Side> sides_of(const Face& face) {
+  if (face.size() == 2) return {{face[0].number, face[0].number}, {face[1].number, face[1].number}};
   std::vector<Side> sides;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    Side side{face[i], face[(i + 1) % face.size()]};
+    Side side{face[i].number, face[(i + 1) % face.size()].number};
     if (side[1] < side[0]) std::swap(side[0], side[1]);
     sides.push_back(side);
   }
@@ -51,6 +60,7 @@ std::vector<Side> sides_of(const std::vector<Point>& face) {
 /// A segment or a triangle between nodes, and its size.
 struct Element {
   std::array<int, 3> nodes;
+  std::array<Vec3, 3> x;  ///< of the nodes
   int n;
   Real size;
 };
@@ -58,12 +68,12 @@ struct Element {
 /// Linear finite elements of Lap w = -1.
 class Section {
  public:
-  Section(const std::vector<std::vector<Point>>& faces, const std::set<Side>& free);
+  Section(const std::vector<Face>& faces, const std::set<Side>& free);
 
   /// w at the nodes by conjugate gradients. Returns false where no node is inside.
   bool solve();
   /// Integral of w over a face.
-  Real integral(const std::vector<Point>& face) const {
+  Real integral(const Face& face) const {
     Real sum = 0;
     for (const Element& e : elements_of(face))
       for (int i = 0; i < e.n; ++i) sum += e.size / e.n * w_[e.nodes[i]];
@@ -71,26 +81,26 @@ class Section {
   }
 
  private:
-  std::vector<Element> elements_of(const std::vector<Point>& face) const;
-  Element element(const std::vector<Point>& corners) const;
+  std::vector<Element> elements_of(const Face& face) const;
+  Element element(const Face& corners) const;
   void multiply(std::vector<Real>& out, const std::vector<Real>& in) const;
 
-  std::map<Point, int> number_;
+  std::map<Index, int> node_;  // by a corner's number
   std::vector<Element> elements_;
   std::vector<std::array<std::array<Real, 3>, 3>> stiffness_;  // [elements]
   std::vector<char> fixed_;
   std::vector<Real> w_;
 };
 
-Element Section::element(const std::vector<Point>& corners) const {
-  Element e{{0, 0, 0}, static_cast<int>(corners.size()), 0};
-  for (int i = 0; i < e.n; ++i) e.nodes[i] = number_.at(corners[i]);
-  const Vec3 a = vector(corners[1]) - vector(corners[0]);
-  e.size = e.n == 2 ? norm(a) : norm(cross(a, vector(corners[2]) - vector(corners[0]))) / 2;
+Element Section::element(const Face& corners) const {
+  Element e{{}, {}, static_cast<int>(corners.size()), 0};
+  for (int i = 0; i < e.n; ++i) e.nodes[i] = node_.at(corners[i].number), e.x[i] = corners[i].x;
+  const Vec3 a = e.x[1] - e.x[0];
+  e.size = e.n == 2 ? norm(a) : norm(cross(a, e.x[2] - e.x[0])) / 2;
   return e;
 }
 
-std::vector<Element> Section::elements_of(const std::vector<Point>& face) const {
+std::vector<Element> Section::elements_of(const Face& face) const {
   if (face.size() < 4) return {element(face)};
   std::vector<Element> parts;
   for (std::size_t i = 2; i < face.size(); ++i)
@@ -98,29 +108,24 @@ std::vector<Element> Section::elements_of(const std::vector<Point>& face) const 
   return parts;
 }
 
-Section::Section(const std::vector<std::vector<Point>>& faces, const std::set<Side>& free) {
+Section::Section(const std::vector<Face>& faces, const std::set<Side>& free) {
   std::map<Side, int> count;
-  for (const auto& face : faces) {
-    for (const Point& p : face) number_.emplace(p, 0);
+  for (const Face& face : faces) {
+    for (const Corner& corner : face) node_.emplace(corner.number, static_cast<int>(node_.size()));
     for (const Side& side : sides_of(face)) ++count[side];
   }
-  std::vector<Vec3> x;
-  for (auto& [point, number] : number_)
-    number = static_cast<int>(x.size()), x.push_back(vector(point));
-  fixed_.assign(x.size(), 0), w_.assign(x.size(), 0);
+  fixed_.assign(node_.size(), 0), w_.assign(node_.size(), 0);
   for (const auto& [side, times] : count)
     if (times == 1 && !free.contains(side))
-      for (const Point& p : side) fixed_[number_.at(p)] = 1;
-  for (const auto& face : faces)
+      for (const Index number : side) fixed_[node_.at(number)] = 1;
+  for (const Face& face : faces)
     for (const Element& e : elements_of(face)) {
       elements_.push_back(e);
       auto& K = stiffness_.emplace_back();
       for (int i = 0; i < e.n; ++i)
         for (int j = 0; j < e.n; ++j) {
           // int grad N_i . grad N_j: e_i . e_j / (4 A), e_i the side across from node i
-          const auto across = [&](int k) {
-            return x[e.nodes[(k + 2) % 3]] - x[e.nodes[(k + 1) % 3]];
-          };
+          const auto across = [&](int k) { return e.x[(k + 2) % 3] - e.x[(k + 1) % 3]; };
           K[i][j] =
               e.n == 2 ? (i == j ? 1 : -1) / e.size : dot(across(i), across(j)) / (4 * e.size);
         }
@@ -180,18 +185,14 @@ std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const 
   if (profile == InflowProfile::parabola) {
     std::set<Side> sides;
     for (const Patch& other : free)
-      for (const auto& face : faces_of(other, mesh))
+      for (const Face& face : faces_of(other, mesh))
         for (const Side& side : sides_of(face)) sides.insert(side);
     Section section(faces_of(patch, mesh), sides);
     require(section.solve(), "patch \"" + patch.name +
                                  "\" is too coarse for a parabola: no corner of its faces lies " +
                                  "inside; refine the mesh or take a plug");
-    for (Index f = patch.begin; f < patch.end; ++f) {
-      std::vector<Point> face;
-      for (const Index p : mesh.face_points[f])
-        face.push_back({mesh.points[p].x, mesh.points[p].y, mesh.points[p].z});
-      w[f - patch.begin] = section.integral(face) / norm(mesh.Sf[f]);
-    }
+    for (Index f = patch.begin; f < patch.end; ++f)
+      w[f - patch.begin] = section.integral(face_of(f, mesh)) / norm(mesh.Sf[f]);
   }
   Sum flow;
   for (Index f = patch.begin; f < patch.end; ++f) flow.add(w[f - patch.begin] * dot(n, mesh.Sf[f]));

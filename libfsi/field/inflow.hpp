@@ -15,10 +15,10 @@ enum class InflowProfile { plug, parabola };
 /// the domain: u = -n w / int w dA, n the mean normal of the patch. plug: w = 1. parabola: in the
 /// patch
 ///   Lap w = -1,   w = 0 at its rim,
-/// by linear finite elements on its faces. The mean over a face is taken. free: patches without
-/// friction (planes of symmetry), along which the rim has no condition; where all of the rim is
-/// along them, w = 1. Errors: Error{input} where the whole patch is one row of faces, so that no
-/// corner lies inside.
+/// by linear finite elements on its faces; the rim goes on through a period of the mesh. The mean
+/// over a face is taken. free: patches without friction (planes of symmetry), along which the rim
+/// has no condition; where all of the rim is along them, w = 1. Errors: Error{input} where the
+/// whole patch is one row of faces, so that no corner lies inside.
 std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,
                                const std::vector<Patch>& free);
 

@@ -82,6 +82,27 @@ TEST(Inflow, APlaneWithoutFrictionDoesNotHoldIt) {
   }
 }
 
+TEST(Inflow, AProfileGoesOnThroughAPeriod) {
+  for (const bool tets : {false, true}) {
+    const Mesh mesh =
+        test::read_box({.n = {3, 8, 3}, .simplex = tets, .periodic = {"back", "front"}});
+    const Patch& left = mesh.patch("left");
+    const std::vector<Vec3> shape = inflow_shape(InflowProfile::parabola, left, mesh, {});
+    for (Index f = left.begin; f < left.end; ++f) {
+      const Real y = mesh.Cf[f].y;
+      EXPECT_NEAR(shape[f - left.begin].x, 6 * y * (1 - y), 0.06);
+    }
+  }
+}
+
+TEST(Inflow, WithoutFrictionAtTheRimItIsAPlug) {
+  const Mesh mesh = channel(8);
+  const Patch& left = mesh.patch("left");
+  for (const Vec3& u :
+       inflow_shape(InflowProfile::parabola, left, mesh, {mesh.patch("top"), mesh.patch("bottom")}))
+    EXPECT_NEAR(u.x, 1, 1e-12);
+}
+
 TEST(Openings, FlowRatesWithoutAWayOutAreRefused) {
   const Mesh mesh = channel(4);
   Conditions conditions{
