@@ -52,6 +52,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     checkpoints_.clear();
     checkpoint_.resume(solver_.state().t);  // the start needs none
     samples_.resume(solver_.state().t, "none");
+    solver_.report().rejected = 0, solver_.report().rejections.clear();
   }
   tell_of_images(solver_);
   first_step_ = row_step_ = solver_.state().step;
