@@ -36,7 +36,8 @@ Arguments read_arguments(int argc, char** argv) {
       result.help = true;
     } else if (word == "-version" || word == "--version") {
       result.version = true;
-    } else if (i > 0 && is_yaml(word) && result.file.empty() && !is_option(argv[i - 1])) {
+    } else if (i > 0 && is_yaml(word) && result.file.empty() &&
+               !names_file(plain_name(argv[i - 1]))) {
       result.file = word;
       // First of all, so that the words of the command line hold where both name an option. PETSc
       // forgets the name; files that the case names may lie beside it.
@@ -67,10 +68,13 @@ std::string fault_of(const Arguments& arguments) {
           (i + 1 == arguments.words.size() || arguments.words[i + 1].starts_with("-")))
         return "option " + word + " needs the name of a file";
     }
+    const std::size_t first = arguments.file.empty() ? 1 : 5;  // behind the file and its folder
     if (!option && !value_may_follow)
       return "argument \"" + word + "\" belongs to no option" +
-             (i > 1 ? "; it follows \"" + arguments.words[i - 1] + "\" (a list is one word: a,b,c)"
-                    : "; an options file ends in .yaml or .yml");
+             (is_yaml(word) ? "; the options file is \"" + arguments.file + "\""
+              : i > first
+                  ? "; it follows \"" + arguments.words[i - 1] + "\" (a list is one word: a,b,c)"
+                  : "; an options file ends in .yaml or .yml");
     value_may_follow = option;
   }
   return "";

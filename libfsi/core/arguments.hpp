@@ -15,8 +15,9 @@ struct Arguments {
   bool version = false;  ///< -version was, likewise
 };
 
-/// The first word that ends in .yaml or .yml and follows no option is the options file, wherever it
-/// stands. Of an option that it and the command line give, that of the command line holds.
+/// The first word that ends in .yaml or .yml is the options file, wherever it stands, but for one
+/// that -options_file or -options_file_yaml names. Of an option that it and the command line give,
+/// that of the command line holds.
 Arguments read_arguments(int argc, char** argv);
 
 /// The name of an option as PETSc compares it: without capitals, and with one dash where it has

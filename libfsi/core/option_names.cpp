@@ -74,4 +74,16 @@ std::string nearest(const std::string& name, const std::vector<std::string>& val
   return found == valid.end() || distance(name, *found) > most ? "" : *found;
 }
 
+std::string nearest_before_underscore(const std::string& name,
+                                      const std::vector<std::string>& valid, std::size_t most) {
+  std::string found;
+  std::size_t least = most + 1;
+  for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
+    const std::string begin = name.substr(0, at), near = nearest(begin, valid, most);
+    if (near.empty() || distance(begin, near) >= least) continue;
+    found = near, least = distance(begin, near);
+  }
+  return found;
+}
+
 }  // namespace fsi

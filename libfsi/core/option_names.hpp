@@ -18,4 +18,9 @@ bool of_solver(const std::string& name);
 std::string nearest(const std::string& name, const std::vector<std::string>& valid,
                     std::size_t most = std::string::npos);
 
+/// The same for what stands before one of the underscores in `name`: the word that is nearest to
+/// any.
+std::string nearest_before_underscore(const std::string& name,
+                                      const std::vector<std::string>& valid, std::size_t most);
+
 }  // namespace fsi

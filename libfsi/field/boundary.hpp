@@ -62,10 +62,12 @@ using Conditions = std::map<std::string, Condition>;
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Collective. Where no patch gives the pressure, what flows in must flow out. Says what does not,
-/// past 1e-6 of what passes the patches, or 2 % where a velocity is given, which is sampled in the
+/// past 1e-3 of what passes the patches, or 2 % where a velocity is given, which is sampled in the
 /// middle of faces; "" where it does. What is less the projection spreads over the patches.
-std::string imbalance(const BoundaryField<Vec3>& u_b, const std::vector<Condition>& conditions,
-                      const Mesh& mesh);
+/// passed: the most that passed them so far, which counts where it is more; on return with what
+/// passes now.
+std::string imbalance(Real& passed, const BoundaryField<Vec3>& u_b,
+                      const std::vector<Condition>& conditions, const Mesh& mesh);
 
 /// Velocity on the boundary faces at time t; at openings that of the cell. u: owned cells set.
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,

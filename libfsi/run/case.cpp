@@ -70,9 +70,8 @@ void tell_of_loads(const Conditions& conditions) {
     std::printf("patch %s: resistance %g", name.c_str(), load.proximal);
     if (load.distal > 0)
       std::printf(
-          ", distal resistance %g, capacitance %g: its pressure follows a change of the flow "
-          "with the time "
-          "R_d C = %g; the part R / (R + R_d) = %.3g of a change comes at once",
+          ", distal resistance %g, capacitance %g: its pressure follows a change of the flow with "
+          "the time R_d C = %g; the part R / (R + R_d) = %.3g of a change comes at once",
           load.distal, load.capacitance, load.distal * load.capacitance,
           load.proximal / (load.proximal + load.distal));
     std::printf("\n");
@@ -304,7 +303,8 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
-  if (setup.flow.body_force) std::printf("body force: at most %.4g per volume\n", force);
+  if (setup.flow.body_force)
+    std::printf("body force: %.4g per volume at its largest of twenty times\n", force);
   tell_of_loads(setup.flow.conditions);
   if (!peak.patch.empty()) {
     std::printf("%s\n", text_of(peak, p.mu_f / p.rho).c_str());
@@ -335,8 +335,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With too few no cell has solid on all its sides. In a plane an ellipsoid's third axis is
-    // unseen.
+    // With too few no cell has solid on all sides. In a plane an ellipsoid's third axis is unseen.
     constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
     const Real through = s.thickness / edges[i];
     if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))

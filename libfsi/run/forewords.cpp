@@ -77,7 +77,7 @@ Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end
   Real most = 0;
   for (int i = 0; i < times; ++i)
     for (Index c = 0; c < mesh.n_owned; ++c)
-      most = std::max(most, norm(f(mesh.C[c], end * i / times)));
+      most = std::max(most, norm(f(mesh.C[c], end * golden(i))));
   return global_max(most);
 }
 

@@ -25,7 +25,7 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
 /// That flow in a sentence, with its Reynolds number. nu: kinematic viscosity.
 std::string text_of(const PeakFlow& peak, Real nu);
 
-/// Collective. The largest |f| in the cells at twenty times from 0 to end; 0 without a force.
+/// Collective. The largest |f| in the cells at twenty times between 0 and end; 0 without a force.
 Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end);
 
 /// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that

@@ -228,6 +228,7 @@ Limit Output::count(const Limit& limit, Real dt) {
 }
 
 void Output::after_step(const Limit& asked, Real dt) {
+  ++steps_told_;
   if (solver_.report().failure.empty()) saving([&] { write_due(asked, dt); });
 }
 
@@ -235,7 +236,6 @@ void Output::write_due(const Limit& asked, Real dt) {
   require_same_solids();
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
-  ++steps_told_;
   watch_.end(s.t - dt, case_.time.end);
   if (s.step == first_step_ + 1) options_.check_unused();
   energy_.add(solver_, dt);

@@ -151,9 +151,9 @@ std::string joined(const std::vector<std::string>& words) {
   return list;
 }
 
-/// "; did you mean ...?", where a word is near.
+/// "; did you mean ...?", where a word, or what it has before an underscore, is near.
 std::string meant(const std::string& word, const std::vector<std::string>& valid) {
-  const std::string near = nearest(word, valid, word.size() / 2);
+  const std::string near = nearest_before_underscore(word + "_", valid, 2);
   return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
@@ -208,10 +208,9 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
   const auto check = [&](const std::vector<std::string>& given, const std::string& end) {
     for (const std::string& text : given)
       if (patch_of(text + end, mesh).empty())
-        throw Error(ErrorKind::input,
-                    "option -patches_" + text + end + " is of no patch" +
-                        (end.empty() ? "" : ": \"" + text + "\" is unknown") + "; " + has +
-                        meant(end.empty() ? text.substr(0, text.find('_')) : text, names_of(mesh)));
+        throw Error(ErrorKind::input, "option -patches_" + text + end + " is of no patch" +
+                                          (end.empty() ? "" : ": \"" + text + "\" is unknown") +
+                                          "; " + has + meant(text, names_of(mesh)));
   };
   check(options.names("patches_", "_type"), "_type");
   check(options.names("patches_", ""), "");

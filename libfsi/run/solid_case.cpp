@@ -196,7 +196,7 @@ void check_shapes(const Options& options, const std::vector<std::string>& names)
   for (const std::string& text : options.names("solids_", "")) {
     if (std::ranges::any_of(names, [&](auto& name) { return text.starts_with(name + "_"); }))
       continue;
-    const std::string near = nearest(text.substr(0, text.find('_')), names, 2);
+    const std::string near = nearest_before_underscore(text, names, 2);
     throw Error(ErrorKind::input,
                 "option -solids_" + text +
                     " is of no solid: each has a name without blanks, and a " +

@@ -64,8 +64,8 @@ void tell_of_images(const Solver& solver) {
 void tell_of_missing_solids(const Solver& solver, std::size_t in_case) {
   if (in_case > 0 && solver.bodies().empty())
     say("notice",
-        "the case has a solid and the solver none: put_solids(solver, setup) before the "
-        "Output puts it in");
+        "the case has a solid and the solver none: call put_solids(solver, setup) before the "
+        "Output is made");
 }
 
 void tell_of_steps(std::int64_t made, std::int64_t told) {
@@ -102,9 +102,10 @@ void Watch::end(Real begin, Real end) {
   if (told_of_end_ || begin < end * (1 - rounding)) return;
   told_of_end_ = true;
   say("warning",
-      print("a step begins at t = %g, at or past the end at %g: Clock::set(t) after every "
-            "step tells the clock the time",
-            begin, end));
+      print(
+          "a step begins at t = %g, at or past the end at %g: give the Clock time.end of the case, "
+          "and the time after every step by Clock::set",
+          begin, end));
 }
 
 void Watch::reynolds(Real number) {

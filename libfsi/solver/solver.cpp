@@ -231,7 +231,6 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
 
 void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
-  require_balance(state_.t + dt);
   set_gradient(L_, u_b_new_, state_.t + dt);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   for (const auto& [i, L] : interface_L_f_) L_f_[i] = L;

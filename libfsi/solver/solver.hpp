@@ -192,8 +192,8 @@ class Solver {
   void require_step(Real dt) const;
   /// Collective. Errors: Error{input} where the velocity to start from is not finite.
   void require_finite(const CellField<Vec3>& u_0) const;
-  /// Collective. Errors: Error{numerics} where more flows in than out at t, by u_b_new_.
-  void require_balance(Real t) const;
+  /// Collective. Whether as much flows in as out at t; else says in the report why not.
+  bool balanced(Real t);
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
   void set_pressure_of_rest();
@@ -341,6 +341,7 @@ class Solver {
   std::optional<StrainByFlux> by_flux_;
   bool leaves_ = false;      // whether a solid may leave the mesh
   bool prescribed_ = false;  // whether all that flows in and out is given
+  Real passed_ = 0;          // the most of it so far
   std::optional<Backup> backup_;
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run

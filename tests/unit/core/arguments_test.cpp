@@ -19,7 +19,8 @@ TEST(Arguments, AnOptionsFileComesFirst) {
   EXPECT_EQ(a.words, (std::vector<std::string>{"program", "-options_file_yaml", "case.yaml",
                                                "-case_folder", ".", "-a", "1"}));
   EXPECT_EQ(read({"cases/own.yml"}).words.back(), "cases");
-  EXPECT_EQ(read({"-a", "case.yaml"}).file, "");
+  EXPECT_EQ(read({"-a", "case.yaml"}).file, "case.yaml");
+  EXPECT_EQ(read({"-options_file_yaml", "case.yaml"}).file, "");
   EXPECT_EQ(read({"-help", "-a", "1", "case.yaml"}).words, a.words);
   EXPECT_FALSE(a.version);
   EXPECT_TRUE(read({"-version"}).version);

@@ -140,8 +140,8 @@ void expect_held(Real ratio, bool simplex) {
   }
   const Held last = held(solver);
   std::printf("elastic disc, %s, viscosity ratio %g: flattening %.4f, %.4f, least volume %.3f\n",
-              simplex ? "triangles" : "quads", ratio,
-              first.flattening, last.flattening, last.least);
+              simplex ? "triangles" : "quads", ratio, first.flattening, last.flattening,
+              last.least);
   EXPECT_NEAR(first.flattening, 2 / G, 0.1 * 2 / G);
   EXPECT_NEAR(last.flattening, first.flattening, 0.02 * first.flattening);
   EXPECT_GT(last.least, 0.9);
