@@ -12,6 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 import fsi  # noqa: E402
 from fsi import film, labels, plots, sections, style, views  # noqa: E402
 
+
 def words(known):
     """What takes words with commas between them, all of them known."""
     def split(text):
@@ -77,7 +78,8 @@ def print_numbers(run):
     summary = run.summary
     if summary:
         print(f"  {summary['status']} at t = {summary['t']:.6g}: {summary['cells']} cells, "
-              f"{summary['ranks']} {'rank' if summary['ranks'] == 1 else 'ranks'}, {summary['steps']} steps, {summary['wall_seconds']:.4g} s")
+              f"{summary['ranks']} {'rank' if summary['ranks'] == 1 else 'ranks'}, {summary['steps']} steps, "
+              f"{summary['wall_seconds']:.4g} s")
     for name, data in plots.with_drift(run).items():
         if not os.path.exists(os.path.join(run.folder, name + ".csv")):
             continue

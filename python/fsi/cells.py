@@ -14,6 +14,8 @@ FACES = {  # by corner, seen from outside against the clock
     PRISM: [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
     PYRAMID: [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
 }
+EDGES = {kind: sorted({tuple(sorted((face[i - 1], face[i]))) for face in faces for i in range(len(face))})
+         for kind, faces in FACES.items()}  # by corner, each once
 
 
 def distinct(rows):
@@ -129,7 +131,8 @@ def matched(mesh, fraction, value, rounds=12, most=0.4):
 
     Means over cells round off what is curved, and over cells of unequal size and place they are off by a
     good part of an edge. Each round adds half of what is missing in the cells around a point, in the mean.
-    No value changes by more than `most`: so a trace of solid away from the body stays without a surface.
+    No value changes by more than `most`: so a trace of solid away from the body, where values are near to
+    -0.5, stays without a surface. At 0.2 an ellipsoid two edges thick is off by 6 %, at 0.4 by 4 %.
     """
     low, high = mesh.extent(value)
     cut = np.flatnonzero((fraction > 0) & (fraction < 1) | (low < 0) & (high > 0))

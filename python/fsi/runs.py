@@ -95,15 +95,24 @@ class Mesh:
                                             self._outward(places[:, face])) / self.dim
         return abs(found)
 
-    @functools.cached_property
-    def edges(self):
-        """Mean length of the sides of the faces of each cell."""
+    def edges(self, chosen=None):
+        """Mean length of the edges of each cell, of all cells or of those chosen; 0 of the others."""
         found = np.zeros(len(self.types))
-        for numbers, corners, kind in self.groups():
-            sides = np.array([(face[i - 1], face[i]) for face in cells.FACES[kind] for i in range(len(face))])
-            ends = self.points[corners[:, sides]]
-            found[numbers] = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).mean(axis=1)
+        for numbers, corners, kind in self.groups(chosen):
+            sides = cells.EDGES[kind]
+            for first, second in sides:
+                along = self.points[corners[:, second]] - self.points[corners[:, first]]
+                found[numbers] += np.linalg.norm(along, axis=1) / len(sides)
         return found
+
+    def edges_at_points(self, chosen):
+        """The mean of `edges` over all cells around each corner of the cells chosen; NaN where none of the
+        cells around a point has such a corner."""
+        wanted = np.zeros(len(self.points), bool)
+        for _, corners, _ in self.groups(chosen):
+            wanted[self.place[corners]] = True
+        around = np.logical_or.reduceat(wanted[self.place[self.corners]], self.starts)
+        return self.at_points(self.edges(np.flatnonzero(around)), around)
 
     def gradients(self, values):
         """Of values at the points [n, c], in each cell [m, c, 3], by the means on its faces."""
@@ -173,7 +182,15 @@ class Snapshot:
         return self._at_points[name]
 
     def has_solid(self):
-        return "alpha" in self and bool(self["alpha"].max() > 0.5)
+        return "alpha" in self and bool(self.part_of_solid().max() > 0.5)
+
+    def part_of_solid(self, name="alpha"):
+        """The field that tells where a solid is; one that is no number in some cell is an error."""
+        lost = np.isnan(self[name]).sum()
+        if lost:
+            raise ValueError(f"at t = {self.time:.6g} the field {name} is no number in {lost} of "
+                             f"{len(self[name])} cells")
+        return self[name]
 
     def centre_of_solid(self):
         """Mean place of the solid [3], in the mesh as it is written; None without a solid."""
@@ -213,7 +230,6 @@ DERIVED = {  # name: (the fields that it is made of, how)
     "speed": (("u",), lambda snapshot: np.linalg.norm(snapshot["u"], axis=1)),
     "stretch": (("B", "alpha"), _stretch),  # the largest one
     "stress": (("u", "p"), _stress),  # of the fluid [m, 3, 3]
-    "edge": ((), lambda snapshot: snapshot.mesh.edges),  # mean length of the edges of a cell
 }
 OF_SOLID, OF_FLUID = ("B", "stretch"), ("stress",)
 
@@ -261,7 +277,6 @@ class Run:
         if "x" not in solid or len(solid["t"]) == 0:
             return None
         return np.array([np.interp(time, solid["t"], solid[axis]) for axis in "xyz"])
-
 
     def inside(self, time):
         """The part of the solids' volume at a time that has not left through an opening, by their tables."""

@@ -10,7 +10,6 @@ from . import cells, quadrics
 ENDS = 0.03, 0.97  # a surface keeps so far from the ends of an edge: a triangle of no size has no normal
 
 
-
 @dataclass
 class Surface:
     """points [n, 3], triangles [m, 3] and values at the points, by name."""
@@ -56,13 +55,17 @@ class Surface:
                        {name: value[kept] for name, value in self.values.items()})
 
 
-def isosurface(snapshot, name="alpha", level=0.5, carry=(), value=None):
+def isosurface(snapshot, name="alpha", level=0.5, carry=()):
     """The surface name = level in three dimensions; its normals point to smaller values.
 
-    The fields named in `carry` come along as values at the points. value: at the points, 0 at the surface,
-    in place of name - level.
+    The fields named in `carry` come along as values at the points.
     """
-    mesh, value = snapshot.mesh, snapshot.at_points(name) - level if value is None else value
+    return zero_surface(snapshot.mesh, snapshot.at_points(name) - level,
+                        {other: snapshot.at_points(other) for other in carry})
+
+
+def zero_surface(mesh, value, fields):
+    """The surface on which values at the points are 0, with the fields {name: values at the points}."""
     least, most = mesh.extent(value)
     parts = cells.Simplices(mesh, np.flatnonzero((least <= 0) & (most >= 0)))
     value, places = parts.extend(value), parts.extend(mesh.points)
@@ -74,8 +77,8 @@ def isosurface(snapshot, name="alpha", level=0.5, carry=(), value=None):
     surface.triangles[wrong] = surface.triangles[wrong][:, ::-1]
     part = np.clip(part, *ENDS)
     surface.points = cells.between(places, ends, part)
-    for other in carry:
-        surface.values[other] = cells.between(parts.extend(snapshot.at_points(other)), ends, part)
+    for name, known in fields.items():
+        surface.values[name] = cells.between(parts.extend(known), ends, part)
     return surface
 
 
@@ -89,13 +92,14 @@ def solid_surface(snapshot, carry=(), about=None):
     if snapshot.mesh.dim == 2:
         raise ValueError("a run in two dimensions has no surface; its line is where alpha is 0.5")
     fields = ["stress" if name == "traction" else name for name in carry]
-    fields = ["edge"] + [name for name in fields if name in snapshot]
+    fields = [name for name in fields if name in snapshot]
     bodies = [_body(snapshot, name, fields, about) for name in snapshot.bodies()]
     return united([body for body in bodies if len(body.triangles)] or bodies[:1])
 
 
 def _half(snapshot, name):
     """The level at the surface of a solid: 0.5, or less where means over cells nowhere come near to 1."""
+    snapshot.part_of_solid(name)
     return 0.5 * max(min(1.0, float(snapshot.at_points(name).max())), 0.5)
 
 
@@ -111,10 +115,13 @@ def _body(snapshot, name, fields, about):
     """The surface of one solid, of which `name` is the part of the cells."""
     mesh = snapshot.mesh
     value = cells.matched(mesh, snapshot[name], snapshot.at_points(name) - _half(snapshot, name))
-    surface = isosurface(snapshot, carry=fields, value=value)
+    known = {field: snapshot.at_points(field) for field in fields}
+    known["edge"] = mesh.edges_at_points(np.flatnonzero(mesh.extent(value)[1] >= 0))
+    surface = zero_surface(mesh, value, known)
     if len(surface.triangles) == 0:
+        del surface.values["edge"]
         return surface
-    surface = in_one_piece(united([surface, cap(snapshot, value, fields)]), mesh, about)
+    surface = in_one_piece(united([surface, cap(mesh, value, known)]), mesh, about)
     surface = joined(surface, 1e-6 * np.ptp(mesh.points, axis=0).max())
     for key, value in surface.values.items():
         surface.values[key] = filled(value, surface.edges()[0])
@@ -292,9 +299,8 @@ def subdivide(surface):
                    {name: halves(value) for name, value in surface.values.items()})
 
 
-def cap(snapshot, value, carry=()):
-    """The part of the mesh's outside on which values at the points are above 0; it closes the isosurface."""
-    mesh = snapshot.mesh
+def cap(mesh, value, fields):
+    """The part of the mesh's outside on which values at the points are above 0; it closes the zero_surface."""
     triples, quads = outer_faces(mesh)
     middle = len(mesh.points) + np.arange(len(quads))
     triangles = np.concatenate([triples] + [
@@ -311,8 +317,8 @@ def cap(snapshot, value, carry=()):
     ends, part = cells.upper(triangles, value)
     part = np.clip(part, *ENDS)
     found = Surface(cells.between(places, ends, part), np.arange(len(ends)).reshape(-1, 3))
-    for other in carry:
-        found.values[other] = cells.between(extended(snapshot.at_points(other)), ends, part)
+    for name, known in fields.items():
+        found.values[name] = cells.between(extended(known), ends, part)
     return found
 
 

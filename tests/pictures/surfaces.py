@@ -9,7 +9,7 @@ from made_up import ball, box, check, filled_part, irregular, part_inside
 
 made_up.arguments()
 import fsi  # noqa: E402
-from fsi import cells, cuts, runs, surfaces  # noqa: E402
+from fsi import cells, cuts, quadrics, runs, surfaces  # noqa: E402
 
 
 def snapshot(mesh, centre, radius, period=(0, 0, 0)):
@@ -54,8 +54,7 @@ def check_matched():
         check(np.allclose(np.bincount(parts.cells, size), mesh.volumes), f"{kind}: the cells of the tetrahedra")
         height = mesh.points @ (0.3, 0.5, 0.8) - 0.7
         part = np.bincount(parts.cells, size * cells.part_above(parts.extend(height)[parts.corners])) / mesh.volumes
-        found = surfaces.isosurface(runs.Snapshot(mesh, 0.0, {"alpha": part}), value=cells.matched(
-            mesh, part, mesh.at_points(part) - 0.5, 60))
+        found = surfaces.zero_surface(mesh, cells.matched(mesh, part, mesh.at_points(part) - 0.5, 60), {})
         inner = (abs(found.points - 0.5) < 0.3).all(axis=1)
         off = found.points[inner] @ (0.3, 0.5, 0.8) - 0.7
         check(abs(off).max() < 0.02, f"{kind}: a plane is found again to {abs(off).max():.1e}")
@@ -73,7 +72,7 @@ def check_round():
         radius = np.linalg.norm(away, axis=1)
         slant = (np.einsum("ij,ij->i", surface.normals(), away) / radius).min()
         area, radius = surface.area() / (np.pi / 4), radius / 0.25
-        told = f"{kind}: {0.5 / np.median(mesh.edges):.1f} edges across"
+        told = f"{kind}: {0.5 / np.median(mesh.edges()):.1f} edges across"
         check(max(1 - radius.min(), radius.max() - 1) < limit,
               f"{told}, radius from {radius.min():.3f} to {radius.max():.3f}")
         check(abs(area - 1) < 0.005, f"{told}, area {area:.4f}")
@@ -230,6 +229,45 @@ def check_resample():
     check(inside.sum() == 35 and grid[1, 1, 1, 0] == 1.75, "a tetrahedron on a grid")
 
 
+def check_edges():
+    for kind in ("hex", "tet", "prism", "pyramid"):
+        mesh = irregular((1, 1, 1), (4, 4, 4), kind)
+        mean = mesh.edges()
+        some = np.array([3, 40])
+        check(np.allclose(mesh.edges(some)[some], mean[some]) and np.count_nonzero(mesh.edges(some)) == 2,
+              f"{kind}: edges of some cells")
+        corners = np.concatenate([found.ravel() for _, found, _ in mesh.groups(some)])
+        near = mesh.edges_at_points(some)
+        check(np.allclose(near[corners], mesh.at_points(mean)[corners]) and np.isnan(near).any(),
+              f"{kind}: edges at their corners")
+    check(np.isclose(runs.Mesh(*box((2, 3, 7), (1, 1, 1))).edges()[0], 4), "edges of a box")
+
+
+def check_neighbourhoods():
+    """Of places with unequal reaches, all of one place at once and in parts."""
+    random = np.random.default_rng(2)
+    places, reach = random.uniform(0, 1, (900, 3)), 0.02 * 30**random.uniform(0, 1, 900)
+    away = np.linalg.norm(places[:, None] - places, axis=2)
+    for most in (1000000, 500):
+        found = np.zeros((900, 900), int)
+        for some, at, near in quadrics.neighbourhoods(places, reach, most):
+            np.add.at(found, (some[at], near), 1)
+        check((found == (away < reach[:, None])).all(), f"who is near, {most} pairs at a time")
+
+
+def check_lost():
+    one = snapshot(runs.Mesh(*box((1, 1, 1), (6, 6, 6))), (0.5, 0.5, 0.5), -1)
+    check(surfaces.solid_surface(one, ("p",)).values.keys() == {"p"}, "without a solid: no values but those asked for")
+    one.data["alpha"][7] = np.nan
+    for ask in (one.has_solid, lambda: surfaces.solid_surface(one)):
+        try:
+            ask()
+            told = ""
+        except ValueError as error:
+            told = str(error)
+        check(told == "at t = 0 the field alpha is no number in 1 of 216 cells", f"a cell without a number: {told}")
+
+
 check_sphere()
 check_matched()
 check_round()
@@ -243,4 +281,7 @@ check_wall()
 check_clipped()
 check_distinct()
 check_resample()
+check_edges()
+check_neighbourhoods()
+check_lost()
 sys.exit(1 if made_up.failures else 0)
