@@ -236,7 +236,7 @@ def stiff():
         else:
             right.plot(stiffness, energies, mark + "-", color=colour, label=row[1])
     right.set(xscale="log", xlabel="G*", ylabel="kinetic energy at t = 0.1, dimensionless")
-    right.legend(fontsize=8)
+    right.legend(fontsize=8, loc=(0.05, 0.1))
     return figure
 
 
