@@ -63,9 +63,9 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
 /// Collective. Where no patch gives the pressure, what flows in must flow out. Says what does not,
 /// past 1e-3 of what passes the patches, or 2 % where a velocity is given, which is sampled in the
-/// middle of faces; "" where it does. What is less the projection spreads over the patches.
-/// passed: the most that passed them so far, which counts where it is more; on return with what
-/// passes now.
+/// middle of faces; "" where it does, or where it is not finite. What is less the projection
+/// spreads over the patches. passed: the most that passed them so far, which counts where it is
+/// more; on return with what passes now.
 std::string imbalance(Real& passed, const BoundaryField<Vec3>& u_b,
                       const std::vector<Condition>& conditions, const Mesh& mesh);
 

@@ -21,7 +21,8 @@ struct MeshLimits {
 
 /// Corners of a box along the axes.
 struct Box {
-  Vec3 low, high;
+  Vec3 low;   ///< the least coordinates
+  Vec3 high;  ///< the largest
 };
 
 /// Collective. The least box around the mesh.

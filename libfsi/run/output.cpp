@@ -260,8 +260,8 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
   all[0].entries.push_back({"work", energy_.work()});
   all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
-  for (const Entry& entry : all[0].entries)
-    if (entry.name == "reynolds") watch_.reynolds(entry.value);
+  const bool started = s.step > first_step_ + EnergyBalance::start;
+  watch_.flow(all[0].entries, energy_, started ? dt : 0, s.t);
   for (const Column& column : columns_)
     all[0].entries.push_back({column.name, column.value(solver_), column.course});
   if (s.step == 0)

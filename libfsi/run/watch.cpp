@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -106,6 +107,27 @@ void Watch::end(Real begin, Real end) {
           "a step begins at t = %g, at or past the end at %g: give the Clock time.end of the case, "
           "and the time after every step by Clock::set",
           begin, end));
+}
+
+void Watch::flow(const std::vector<Entry>& row, const EnergyBalance& energy, Real dt, Real t) {
+  for (const Entry& entry : row) {
+    if (entry.name == "reynolds") reynolds(entry.value);
+    if (entry.name == "dissipation") dissipation(entry.value, energy, dt, t);
+  }
+}
+
+void Watch::dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t) {
+  constexpr Real odd = 10;
+  if (told_of_dissipation_ || !(taken * dt > energy.stored()) ||
+      !(taken > odd * std::abs(energy.power())))
+    return;
+  told_of_dissipation_ = true;
+  say("warning",
+      print("at t = %.4g viscosity takes %.3g per unit of time (column dissipation of flow.csv), "
+            "where %.3g is put in and %.3g is stored: the velocity alternates from cell to cell; "
+            "a slow flow on triangles or tetrahedra with a solid needs larger densities "
+            "(doc/howto/vessel.md)",
+            t, taken, energy.power(), energy.stored()));
 }
 
 void Watch::reynolds(Real number) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libfsi/run/records.hpp"
+#include "libfsi/solver/energy.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -33,6 +34,12 @@ class Watch {
   std::string energy(Real made, const Solver& solver);
   /// A warning where a step begins at or past the end of the run.
   void end(Real begin, Real end);
+  /// The next two, by the columns `reynolds` and `dissipation` of a row of flow.csv.
+  void flow(const std::vector<Entry>& row, const EnergyBalance& energy, Real dt, Real t);
+  /// A warning where viscosity takes more in a step of length dt than all that is stored, and ten
+  /// times what is put in: then the velocity alternates from cell to cell. taken: by viscosity per
+  /// time.
+  void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning where the flow through the openings is past what stays laminar in a vessel.
   void reynolds(Real number);
   /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
@@ -52,7 +59,7 @@ class Watch {
   };
   std::vector<Said> said_;  // of the bodies
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
-       told_of_end_ = false;
+       told_of_end_ = false, told_of_dissipation_ = false;
 };
 
 }  // namespace fsi

@@ -32,6 +32,8 @@ class EnergyBalance {
 
   /// E: kinetic and elastic energy.
   Real stored() const { return stored_; }
+  /// dW/dt.
+  Real power() const { return power_; }
   /// W: the work done.
   Real work() const { return work_; }
   /// What the scheme has made, as above.

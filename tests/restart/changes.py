@@ -59,6 +59,7 @@ def main():
                  "-fluid_density 1 (was 2)", "-solid_density 1 (was 2)")
     changed += ["-lid_velocity", "0.5"]
     refused = go_on(*changed, "-solid_shape", "cylinder", "-solid_radius", "0.3", code=2)
+    refused = [line for line in refused if "cells through its thickness" not in line]
     check(len(refused) == 1 and all(part in refused[0] for part in (
         "-solid_shape cylinder (was sphere)", "-solid_radius 0.3 (was 0.2)",
         "-solid_height 0.2 (was not given)")), f"another shape is refused: {refused}")

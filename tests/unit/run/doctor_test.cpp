@@ -73,7 +73,7 @@ TEST(Findings, NameFigureLimitPlaceAndRemedy) {
   EXPECT_EQ(found[0].what, "aspect ratio 40 (limit 25) in a tet at (1, 2, 3)");
   EXPECT_NE(found[0].change.find("Mesh.Optimize = 1"), std::string::npos);
   EXPECT_EQ(found[1].what.find("2.5 cells (at least 6 wanted) across a passage of width 1"), 0u);
-  EXPECT_NE(found[1].change.find("VIn = 0.1"), std::string::npos);
+  EXPECT_NE(found[1].change.find("VIn = 0.083"), std::string::npos);
   EXPECT_EQ(warning("a.msh", found).find("mesh a.msh: aspect ratio 40"), 0u);
 }
 

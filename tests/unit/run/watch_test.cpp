@@ -97,6 +97,28 @@ TEST(Watch, ASolidWithoutAWholeIsTold) {
   EXPECT_EQ(text.find("parallel") != std::string::npos, rank() == 0) << text;
 }
 
+// Viscosity cannot take in a step what is neither stored nor put in.
+TEST(Watch, AVelocityThatAlternatesIsToldByItsDissipation) {
+  const Mesh mesh =
+      test::read_box({.n = {4, 4, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  Solver solver(mesh, {.rho = 2, .mu_f = 0.1}, {});
+  solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });  // a stored energy of 1
+  const EnergyBalance energy(solver);
+  Watch watch(0);
+  const auto said = [&](Real taken, Real dt) {
+    testing::internal::CaptureStderr();
+    watch.flow({{"dissipation", taken}}, energy, dt, 0.5);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(1e3, 0), "") << "not judged yet";
+  EXPECT_EQ(said(9, 0.1), "") << "of what is stored";
+  const std::string text = said(11, 0.1);
+  EXPECT_EQ(text.find("at t = 0.5 viscosity takes 11 per unit of time") != std::string::npos,
+            rank() == 0)
+      << text;
+  EXPECT_EQ(said(11, 0.1), "") << "once";
+}
+
 // Of 0.126: what a solid's specks are, which the flow sweeps ahead of it, is no leaving.
 TEST(Watch, SpecksAreNoSolidThatLeaves) {
   Disc disc;
