@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libfsi/operators/stencil.hpp"
+#include "libfsi/solid/alternation.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -114,25 +115,15 @@ void Extension::fourth_difference_filter(CellField<SymTensor>& T, CellField<SymG
   for (const Index c : known_) slope[c] = least_squares(T, c);
   mesh_.halo.update(slope, rings_.number());
   change_.clear();
+  const auto known = [&](Index k) { return rings_.within(0, k); };
+  const auto rise = [&](Index k, const Vec3& r) { return along(slope[k], r); };
   for (const Index c : known_) {
     if (where[c] == 0) {
       change_.emplace_back();
       continue;
     }
-    SymTensor sum;
-    Real weights = 0;
-    const auto add = [&](const SymTensor& T_k, const SymTensor& rise_k, const Vec3& r) {
-      const Real w = 1 / norm2(r);
-      sum += w * (T_k - T[c] - 0.5 * (along(slope[c], r) + rise_k));
-      weights += w;
-    };
-    for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-      if (rings_.within(0, k)) add(T[k], along(slope[k], r), r);
-    });
-    for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-      if (rings_.within(0, k)) add(image(T[k], n), image(along(slope[k], image(r, n)), n), r);
-    });
-    change_.push_back((alternating_part(speed, recovery, cell_size(mesh_, c), dt) / weights) * sum);
+    const Real part = alternating_part(speed, recovery, cell_size(mesh_, c), dt);
+    change_.push_back(part * alternation(T, known, rise, mesh_, symmetry_, c));
   }
   for (std::size_t i = 0; i < change_.size(); ++i) T[known_[i]] += change_[i];
   for (const Index c : known_) slope[c] = {};

@@ -1,8 +1,6 @@
 #pragma once
 // Values of the solid's interior carried outward into the fluid.
 
-#include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,15 +15,6 @@ namespace fsi::solid {
 
 /// Cells from this fraction of solid on know their own deformation.
 inline constexpr Real alpha_known = 0.5;
-
-/// The part of what alternates from cell to cell that psi and the map lose in a time dt,
-///   1 - exp(-C r dt),   r = min(speed / h, recovery),   C = 0.1.
-/// speed, recovery: of a wave as long as a cell, where viscosity does not matter and where it
-/// rules. Half of C leaves G* = 10 rough on triangles, five times C costs the disc's error a tenth.
-inline Real alternating_part(Real speed, Real recovery, Real h, Real dt) {
-  constexpr Real C = 0.1;
-  return 1 - std::exp(-C * std::min(speed / h, recovery) * dt);
-}
 
 /// Continues a tensor known inside the solid (alpha >= 1/2) into three rings of cells around it,
 /// ring by ring, from the vertex neighbours k that are set already, w = 1 / |r|^2, r from k:

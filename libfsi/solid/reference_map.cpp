@@ -7,6 +7,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
+#include "libfsi/solid/alternation.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/inward_normal.hpp"
 #include "libfsi/solid/koren.hpp"
@@ -199,22 +200,11 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
 Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const {
   if (!beside_psi_ || snapshot.one_sided == nullptr || !snapshot.one_sided->zone().has(c))
     return {};
-  Vec3 sum;
-  Real weights = 0;
-  const auto add = [&](const Vec3& d_k, const Vec3& rise_k, const Vec3& r) {
-    const Real w = 1 / norm2(r);
-    sum += w * (d_k - d[c] - 0.5 * (dot(slope_[c], r) + rise_k));
-    weights += w;
-  };
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (filled_[k] >= alpha_known) add(d[k], dot(slope_[k], r), r);
-  });
-  for_images(c, extension_.symmetry(), mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-    if (filled_[k] >= alpha_known) add(image(d[k], n), image(dot(slope_[k], image(r, n)), n), r);
-  });
-  if (!(weights > 0)) return {};
+  const auto known = [&](Index k) { return filled_[k] >= alpha_known; };
+  const auto rise = [&](Index k, const Vec3& r) { return dot(slope_[k], r); };
   const Real h = cell_size(mesh_, c);
-  return (alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) / weights) * sum;
+  return alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
+         alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {

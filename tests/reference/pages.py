@@ -2,7 +2,8 @@
 """The pages of doc/verification hold one table, one picture and a command each: pages.py SOURCE
 
 The table has at most 15 rows, the page at most 150 lines. A picture that doc/verification/plots.py
-drew is of the table as it stands. README.md, which leads to the pages, is left out.
+drew is of the table as it stands. README.md, which leads to the pages, is left out. A page of doc/theory has
+at most 150 lines, too.
 """
 import hashlib
 import os
@@ -70,6 +71,13 @@ def main():
             for fault in faults(file.read(), drawn):
                 failures += 1
                 print(f"FAIL doc/verification/{page}: {fault}")
+    theory = os.path.join(sys.argv[1], "doc", "theory")
+    for page in sorted(os.listdir(theory)):
+        with open(os.path.join(theory, page), encoding="utf-8") as file:
+            lines = len(file.readlines())
+        if lines > LINES:
+            failures += 1
+            print(f"FAIL doc/theory/{page}: {lines} lines, more than {LINES}")
     print(f"{len(names)} pages, {failures} faults")
     return 1 if failures else 0
 
