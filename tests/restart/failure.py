@@ -133,7 +133,7 @@ def check_rejections(drivers, source, folder, reason, words):
     back = [b for a, b in zip(rows, rows[1:]) if b["rejected_steps"] > a["rejected_steps"]]
     check(rows[-1]["rejected_steps"] == state["rejected_steps"] and len(back) > 0,
           f"{reason}: flow.csv counts them")
-    retry = 7  # doc/theory/flow.md
+    retry = 7  # doc/theory/time_step.md
     check(all(row["limit"] == retry and row["dt"] < row["dt_limit"] for row in back),
           f"{reason}: flow.csv shows the shorter steps")
 
