@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "libfsi/field/boundary.hpp"
@@ -42,6 +43,8 @@ struct MomentumTerms {
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
   /// Courant number beyond which kappa takes the convection of triangles and tetrahedra (Courant).
   Real explicit_courant = std::numeric_limits<Real>::max();
+  /// Irregular faces whose L_f is a fit of one side of a surface. `stiff` where there may be such.
+  std::span<const Index> one_sided{};
 };
 
 /// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
@@ -58,8 +61,10 @@ struct MomentumTerms {
 /// (1 + r) u with r l u explicit. The factor z of a step, with l for l dt / rho,
 ///   (1 + theta l) z^2 - (1 + (2 theta - 3/2) l - 3/2 r l) z + (theta - 1/2 - r / 2) l = 0
 /// stays in the unit circle for any l where r < 2 theta - 1. The term in u^(n-1) keeps it of second
-/// order. theta_f is 1 at all faces where mu_s / mu_f > 2, and in the first steps, without that
-/// term: this damps what an impulsive start leaves.
+/// order. The oblique part of a face in `one_sided` may be larger than tan times the compact one:
+/// theta_f is larger by max(0, 1/4 - 1/l), l = dt mu g (1/V_P + 1/V_N) / rho. theta_f is 1 at all
+/// faces where mu_s / mu_f > 2, and in the first steps, without that term: this damps what an
+/// impulsive start leaves.
 class Momentum {
  public:
   /// Collective. rho, mu_0: of the fluid; mesh, weights and conditions must outlive it.
@@ -113,6 +118,10 @@ class Momentum {
   /// Collective. The part of AB3 in a step of dt.
   Real ab3_weight(const MomentumTerms& terms, Real dt) const;
   void set_theta(Real theta_now);
+  /// The least of an irregular face.
+  Real theta_of(Index f, Real theta_now) const;
+  /// Takes back what it raised the last time.
+  void raise_theta(const MomentumTerms& terms, Real theta_now, Real dt);
   void add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_rest(const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
@@ -135,6 +144,7 @@ class Momentum {
   std::vector<Vec3> implicit_;
   History history_;
   FaceField<Real> theta_f_;
+  std::vector<Index> raised_;  // where theta_f_ is raised for one-sided gradients
   CellField<Vec3> rhs_;
   std::optional<Old> old_;
   bool whole_past_ = false;  // also where theta is 1 at all faces

@@ -109,6 +109,7 @@ void Solver::synchronise() {
   for (const Body& body : bodies_) advect_pressure_jump(state_.p, body);
   set_pressure_gradient(grad_p_, state_);
   set_velocity_gradient(L_, state_);
+  interface_faces_.clear();
   interface_L_f_.clear();
   for (Body& body : bodies_) transport_memory(body, L_);
   for (Body& body : bodies_) transport_elastic(body, L_);

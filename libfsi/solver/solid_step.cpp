@@ -110,6 +110,7 @@ void Solver::clear_forces() {
   if (!bodies_.empty() || driving_force_) force_.fill({});
   if (bodies_.empty()) return;
   rhie_chow_source_.fill(0);
+  interface_faces_.clear();
   interface_L_f_.clear();
   for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_);
 }
@@ -125,7 +126,8 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
     if (!body.zone.has(P) && !body.zone.has(N)) continue;
     const Real lambda = f < mesh_.n_internal ? weights_.lambda[f] : 0;
     L_f_[i] = (1 - lambda) * L[P] + lambda * L[N];
-    interface_L_f_.emplace_back(i, L_f_[i]);
+    interface_faces_.push_back(f);
+    interface_L_f_.push_back(L_f_[i]);
   }
 }
 

@@ -225,7 +225,8 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .force = force_,
                                   .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
                                   .body = driving_gradient() * axis_,
-                                  .explicit_courant = explicit_courant()};
+                                  .explicit_courant = explicit_courant(),
+                                  .one_sided = interface_faces_};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 
@@ -233,7 +234,8 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
   const Profile::Call call(profile_, calls_.predict_flux);
   set_gradient(L_, u_b_new_, state_.t + dt);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
-  for (const auto& [i, L] : interface_L_f_) L_f_[i] = L;
+  for (std::size_t i = 0; i < interface_faces_.size(); ++i)
+    L_f_[weights_.place[interface_faces_[i]]] = interface_L_f_[i];
   const flow::FluxTerms terms{
       .L_f = L_f_,
       .p = state_.p,

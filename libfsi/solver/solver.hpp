@@ -314,8 +314,9 @@ class Solver {
   FaceField<Real> mu_, kappa_, rhie_chow_source_;
   GradientStencil u_stencil_;
   VertexMean<Tensor> vertex_mean_;
-  std::vector<Tensor> L_f_;                              // at irregular faces
-  std::vector<std::pair<Index, Tensor>> interface_L_f_;  // what stands there beside the surface
+  std::vector<Tensor> L_f_;             // at irregular faces
+  std::vector<Index> interface_faces_;  // irregular faces beside the surface, where L_f_ is
+  std::vector<Tensor> interface_L_f_;   // one-sided, and that gradient
   flow::Openings openings_;
   flow::Projection projection_;
   flow::Loads loads_;
