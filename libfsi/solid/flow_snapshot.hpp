@@ -92,9 +92,9 @@ struct FlowSnapshot {
   const InterfaceGradient* one_sided = nullptr;
   const Contact* contact = nullptr;  ///< none: nowhere
   const CutFaces* cuts = nullptr;    ///< none: the strain is not bounded by the work of the force
-  bool has_traction = false;  ///< between two viscosities: outermost cells off walls unbounded
-  Real wave_speed = 0;        ///< of shear in the solid at rest, sqrt(G / rho)
-  Real recovery = 0;          ///< rate against the solid's viscosity, G / mu_s
+  Real in_series = 1;   ///< mu_s / mu_f of the surface's traction; 1: of the elastic force alone
+  Real wave_speed = 0;  ///< of shear in the solid at rest, sqrt(G / rho)
+  Real recovery = 0;    ///< rate against the solid's viscosity, G / mu_s
   /// What remembers the undeformed solid, at the end of the step; none: nothing does.
   const ReferenceMap* memory = nullptr;
 };

@@ -81,9 +81,8 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
     const Tensor L = fitted     ? snapshot.one_sided->strain()[c]
                      : inner(c) ? flux_consistent_gradient(snapshot, mesh_, c)
                                 : of_own_side(c);
-    const bool outermost = !inner(c) && !snapshot.has_traction;
     const bool wedged = fitted && snapshot.one_sided->near_wall(c);
-    L_.push_back(outermost || wedged ? bounded(L, c) : L);
+    L_.push_back(!inner(c) || wedged ? bounded(L, c) : L);
   }
 }
 

@@ -79,6 +79,9 @@ class SurfaceTraction {
   void add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
                          const Band& band) const;
 
+  /// mu_s / mu_f of the two in series.
+  Real in_series() const { return mu_least_ / mu_.fluid; }
+
  private:
   void clear(const Band& band);
   /// Of a cell of the more viscous side.

@@ -1,6 +1,17 @@
 #include "libfsi/solid/work_bound.hpp"
 
 namespace fsi::solid {
+namespace {
+
+/// What viscosities in series add to the gradient on which a face's stress T works, over alpha_f:
+/// (mu_h / mu_s - 1) (b m + m b) : e S, b = (T . m)_t, is T : the result (surface_traction.hpp).
+Tensor of_traction(const Vec3& e, const Vec3& S, const Vec3& m, Real alpha_f, Real ratio) {
+  const Vec3 em = dot(S, m) * e + dot(e, m) * S;  // (e S + S e) . m
+  const Real series = 1 / (alpha_f + (1 - alpha_f) * ratio);
+  return (series - 1) * outer(em - dot(em, m) * m, m);
+}
+
+}  // namespace
 
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c) {
@@ -11,6 +22,8 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
     const Vec3 S = mesh.Sf[f], d = mesh.d[f], e = rise - dot(L_f, d);
     sum += (w * alpha_f[f]) * outer(e, S) +
            (w * (mean - alpha_f[f]) * dot(e, S)) * outer(normal[f], normal[f]);
+    if (snapshot.in_series != 1 && f < mesh.n_internal)
+      sum += (w * alpha_f[f]) * of_traction(rise, S, normal[f], alpha_f[f], snapshot.in_series);
     volume += w * mean * dot(d, S) / static_cast<Real>(mesh.dim);
   };
   for (const Index f : mesh.cell_faces[c]) {

@@ -25,6 +25,11 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 /// L_f is the mean of L and that of an inner cell behind the face, else L. alpha' is that of both
 /// cells and n the surface's normal. w is the cell's part of the face's stress, 1 where the other
 /// cell goes on with it. M - L is zero where no face has a part of it. alpha: of what is known.
+/// Between two viscosities in series the traction of T along the surface is mu_h / mu_s times as
+/// large (SurfaceTraction). With v = u_N - u_P the sum gets, at inner faces,
+///   w alpha_f (mu_h / mu_s - 1) (I - n n) . (v (x) S_f + S_f (x) v) . n (x) n.
+/// Of both viscosities' exact kink, the cell takes up less than the force by (1 - alpha mu_h /
+/// mu_s) |b|^2 alpha / mu_s, b the elastic traction: the bound leaves it as it is.
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 

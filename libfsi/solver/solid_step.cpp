@@ -158,7 +158,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
   snapshot.contact = &contact;
   snapshot.cuts = &cuts;
-  snapshot.has_traction = body.two_viscosities.has_value();
+  if (body.two_viscosities) snapshot.in_series = body.two_viscosities->traction.in_series();
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());

@@ -39,3 +39,6 @@ if __name__ == "__main__":
     fsi_vessel, channel, out = sys.argv[1:]
     disc = ["-solid_radius", "0.5", "-solid_center", "2,0.5,0"]
     check(fsi_vessel, channel, os.path.join(out, "wedged_disc"), 1.5, 0.012, [*disc, "-solid_viscosity", "0.05"])
+    for ratio in (10, 0.1):
+        check(fsi_vessel, channel, os.path.join(out, f"wedged_disc_{ratio}"), 2, 0.012,
+              [*disc, "-solid_viscosity", str(0.05 * ratio)])
