@@ -96,8 +96,8 @@ Tensor ReferenceMap::gradient(Index c) const {
       sum += outer(d[n] - d[c], weight);
     } else if (symmetry.has(f, mesh_)) {
       // xihat - (xihat . n) n is the value at the foot of the centre on the plane, half way to the
-      // image. The weights are those of the face's centre, which lies off the foot by t. So sum =
-      // grad xihat . (I - t (x) weight).
+      // image. The weights are those of the face's centre, which lies off the foot by t. So
+      // sum = grad xihat . (I - t (x) weight).
       const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
       sum += outer(-dot(d[c], normal) * normal, weight);
       aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, weight);
@@ -219,9 +219,9 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
     // a linear u this is wrong by o / V, o = sum_f (L . r_f . S_f) r_f, in cells that are not
     // symmetric about their centre.
     //
-    // For the memory, a flux from a known cell to an unknown one mixes solid and fluid. There phi_f
-    // = (utilde + L . r_f) . S_f, with utilde (`w`) of `velocity_of_fluxes` and L of the known
-    // cells beyond the other faces. Along the surface, n its normal, the map then moves with
+    // For the memory, a flux from a known cell to an unknown one mixes solid and fluid. There
+    // phi_f = (utilde + L . r_f) . S_f, with utilde (`w`) of `velocity_of_fluxes` and L of the
+    // known cells beyond the other faces. Along the surface, n its normal, the map then moves with
     // utilde, which strains psi. Cells at a wall are left out: in a film one cell thick the wall
     // holds the velocity of the cells, and a map that moves with it would be held too.
     const bool rim = beside_psi_ && in_open_fluid(c);

@@ -39,11 +39,11 @@ struct ElasticTerms {
 ///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha_f lambda_B
 ///
 /// It stands for the change of the elastic stress over the step, which by div u = 0 is div(dt G B .
-/// grad u) in the leapfrog of velocity and strain. With a share C of it the leapfrog needs w^2 dt^2
-/// / (1 + C w^2 dt^2) <= 4, which C >= 1/4 makes true for any dt. The fastest mode turns by
-/// arccos(1 - 1 / (2 C)) in a step. With C = 0.3 that is 132 degrees, and in a thin body the waves
-/// persist that the surface excites as it crosses cells. With C = 0.4 it is 104 degrees. The term
-/// vanishes with the change of u over a step.
+/// grad u) in the leapfrog of velocity and strain. With a share C of it the leapfrog needs
+/// w^2 dt^2 / (1 + C w^2 dt^2) <= 4, which C >= 1/4 makes true for any dt. The fastest mode turns
+/// by arccos(1 - 1 / (2 C)) in a step. With C = 0.3 that is 132 degrees, and in a thin body the
+/// waves persist that the surface excites as it crosses cells. With C = 0.4 it is 104 degrees. The
+/// term vanishes with the change of u over a step.
 ///
 ///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
@@ -56,16 +56,16 @@ struct ElasticTerms {
 /// normal. Across the surface the kink makes avg L inaccurate, which would be a stress of first
 /// order. There the viscous stress in series damps instead.
 ///
-/// The mean avg L is (L_P + L_N) / 2, exact for a quadratic velocity. At the surface it is alpha_f
-/// L_solid + (1 - alpha_f) L_fluid, with L of the cells on either side. That is exact for a linear
-/// velocity with a kink, if L is one-sided or the mean of both sides. Without `kink` avg L is
-/// linear between the cells.
+/// The mean avg L is (L_P + L_N) / 2, exact for a quadratic velocity. At the surface it is
+/// alpha_f L_solid + (1 - alpha_f) L_fluid, with L of the cells on either side. That is exact for a
+/// linear velocity with a kink, if L is one-sided or the mean of both sides. Without `kink` avg L
+/// is linear between the cells.
 ///
 /// The term is explicit, so that e is at most 1.5 (kappa + mu_rho). Here mu_rho = (rho |d|^2 / dt)
-/// min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and K = sum_f g |d|^2 /
-/// (2 V) the larger one of both cells. A velocity that differs from all its neighbours then changes
-/// by at most 1.5 of the difference in a step, for any shape of cell. K = dim on squares and
-/// regular simplices, and 10 or more on slivers.
+/// min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and
+/// K = sum_f g |d|^2 / (2 V) the larger one of both cells. A velocity that differs from all its
+/// neighbours then changes by at most 1.5 of the difference in a step, for any shape of cell. K =
+/// dim on squares and regular simplices, and 10 or more on slivers.
 ///
 /// Faces of the simplex zone need all of e, since more modes alternate there. With a one-sided L,
 /// kappa is raised to e / 1.5 - mu_rho if it is less. A flux of e that would add energy to the

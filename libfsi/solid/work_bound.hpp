@@ -19,8 +19,8 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
 
 /// L* - L, where L* is the velocity gradient on which the elastic force works in known cell c. Let
 /// T be the stress in the cell and in the unknown cells to which it is extrapolated. From a flow
-/// with the gradient L in the cell and those of the inner cells beside it, ElasticForce takes V* T
-/// : L per time. From u it takes V* T : L*, with
+/// with the gradient L in the cell and those of the inner cells beside it, ElasticForce takes
+/// V* T : L per time. From u it takes V* T : L*, with
 ///   V* (L* - L) = sum_f w_f [alpha_f Delta_f (x) S_f
 ///                            + (alphabar_f - alpha_f) (Delta_f . S_f) m (x) m],
 ///   V* = sum_f w_f alphabar_f d . S_f / dim,   Delta_f = u_N - u_P - L_f . d.

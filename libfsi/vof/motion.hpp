@@ -1,5 +1,5 @@
 #pragma once
-// Known motions that carry an interface: its error is then measurable.
+// Given motions, with which the error of an advected interface is known.
 
 #include <functional>
 #include <string>
