@@ -35,15 +35,15 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// the patch where it is largest.
 std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
-/// What tells of a solid whether it is to be believed.
+/// Figures by which the result of a solid is judged.
 struct Soundness {
   Real eigenvalue_min = 1;  ///< of B in cells more than half solid
   int pieces = 1;           ///< of a hundredth of its volume or more
-  Real elastic_energy = 0;  ///< as the stress has it
-  Real shape_energy = 0;    ///< of the strain that the map tells
+  Real elastic_energy = 0;  ///< that of the stress
+  Real shape_energy = 0;    ///< that of the strain that the map gives
 };
 
-/// Follows the solid from row to row. What it remembers is part of a checkpoint.
+/// Makes the rows of a solid. Its data from earlier rows are part of a checkpoint.
 class SolidRecord {
  public:
   /// ring: whether the shape is a torus, whose deformation is measured too.
@@ -77,13 +77,13 @@ Real largest_drift(const std::vector<SolidRecord>& records);
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 
 /// Collective. Area (length in 2-D) of a solid's surface in the fluid: that of the planes in its
-/// cells. An isosurface of alpha would round a small body off.
+/// cells. An isosurface of alpha would round a small body.
 Real surface_area(const Body& body);
 
 /// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
 Real elastic_energy(const Body& body);
-/// Collective. That of the strain that the map to the undeformed solid tells; 0
-/// without a map.
+/// Collective. Elastic energy of the strain that the map gives, of the memory or of the map
+/// kinematics; 0 without one.
 Real shape_energy(const Body& body);
 
 }  // namespace fsi
