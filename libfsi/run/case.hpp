@@ -57,7 +57,7 @@ struct Case {
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
 /// Prefixes of the options of solids whose shape is given as "none".
 std::vector<std::string> solids_without_shape(const Options& options);
-/// A solid's shape in the mesh: a plane cuts it through its centre, whatever z that has.
+/// A solid's shape in the mesh: in 2-D the section through its centre, for any z of the centre.
 shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s);
 /// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
 void put_solids(Solver& solver, const Case& setup);

@@ -325,7 +325,8 @@ void Output::write_last_fields() {
   try {
     write_fields();
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerics) throw;  // else the reason of the run's end is told
+    if (error.kind() != ErrorKind::numerics)
+      throw;  // else the reason for the end of the run is reported
   }
 }
 

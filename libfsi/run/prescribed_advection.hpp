@@ -73,7 +73,7 @@ class PrescribedAdvectionOutput {
   Real next_event() const { return field_.next(carried_.t()); }
   /// Collective. Writes what is due.
   void after_step();
-  /// Collective. Writes the end of the run and tells how it ended.
+  /// Collective. Writes the last files and returns how the run ended.
   RunStatus finish();
 
  private:

@@ -108,8 +108,8 @@ void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
   }
 }
 
-/// alpha after the step: alpha V <- alpha V - sum sigma (dV - alpha phi dt). The second part takes
-/// the divergence of phi out: inside the solid nothing changes, whatever div phi is.
+/// alpha after the step: alpha V <- alpha V - sum sigma (dV - alpha phi dt). The second part
+/// removes the divergence of phi, so that nothing changes inside the solid.
 Real updated(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt, const Mesh& mesh,
              const AdvectScratch& s, Index c) {
   Real sum = 0;

@@ -69,7 +69,7 @@ void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& 
   }
 }
 
-/// Sets `change` to what the planes, moved outward by shift, ask for. totals: of change V and of
+/// Sets `change` to the change by the planes, moved outward by shift. totals: of change V and of
 /// area.
 void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, const Mesh& mesh,
                  Real shift, HoldScratch& s) {
