@@ -34,8 +34,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                   const FaceWeights& weights, const Mesh& mesh) {
   // At the solid's surface the braces contain a jump, and its flux is an error in proportion to
   // t_f.
-  constexpr Real courant = 0.02,
-                 whole = 1e-7;  // of |c_f| over the stress, from which on t_f is at its bound
+  constexpr Real courant = 0.02, whole = 1e-7;  // |c_f| over the stress where t_f is at its bound
   const auto time = [&](Index f, const Vec3& u_f) {
     const Real size = std::abs(terms.rhie_chow_source[f]);
     if (size == 0) return terms.dt;

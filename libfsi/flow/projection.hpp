@@ -17,14 +17,14 @@ namespace fsi::flow {
 
 /// The terms of the face flux in addition to u*.
 struct FluxTerms {
-  const std::vector<Tensor>&
-      L_f;  ///< of u*, at irregular faces; of u^n between cells of InterfaceGradient
+  /// Of u*, at irregular faces; of u^n between cells of InterfaceGradient.
+  const std::vector<Tensor>& L_f;
   const CellField<Real>& p;           ///< pressure at the cells
   const CellField<Vec3>& grad_p;      ///< its averaged gradient
   const std::vector<Vec3>& grad_p_f;  ///< of p at irregular faces
   const BoundaryField<Real>& p_b;     ///< read on openings only
-  const FaceField<Real>&
-      rhie_chow_source;  ///< c_f, counterpart of elastic stress and body force; 0 outside the solid
+  /// c_f, counterpart of elastic stress and body force; 0 outside the solid.
+  const FaceField<Real>& rhie_chow_source;
   const FaceField<Real>& mu;       ///< viscosity at the faces
   const FaceField<Real>& theta;    ///< implicit share of the viscous term
   const FaceField<Real>& kappa;    ///< implicit in addition to theta mu; 0 away from the solid

@@ -325,8 +325,7 @@ void Output::write_last_fields() {
   try {
     write_fields();
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerics)
-      throw;  // else the reason for the end of the run is reported
+    if (error.kind() != ErrorKind::numerics) throw;  // else the first error is reported
   }
 }
 

@@ -18,17 +18,21 @@ std::vector<std::string> names(const std::vector<Entry>& row);
 /// The numbers.
 std::vector<Real> values(const std::vector<Entry>& row);
 
-/// Collective. A row of flow.csv, for the flow after a step of length dt. - pressure_drop: between
-/// the patches inlet and outlet, S times the period in a periodic channel. - pressure_span: max p -
-/// min p of the cells without solid. - dissipation: integral 2 mu D : D, mu by the fractions of the
-/// cell. - flow_rate: through the patch `outlet`, or the section of a periodic channel. - us and
-/// dt: as they are. - limit: what set dt. 0 nothing, 1 -time_step, 2 advective, 3 elastic, 4 start,
-/// 5 -time_step_max, 6 an event to be met (a file or the end), 7 growth after a rejected step, 8
-/// strain of the solid. - flow_rate_NAME: out of the domain through each patch NAME that fluid goes
-/// through. - mean_pressure_NAME: of the same patches. At an opening it is the given pressure with
-/// the part of its load, in the middle of the step. If the flow is prescribed, it is that of the
-/// cells at the patch. - reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2)
-/// (in 2-D the width) of the patch where it is largest.
+/// Collective. A row of flow.csv, for the flow after a step of length dt.
+/// - pressure_drop: between the patches inlet and outlet, S times the period in a periodic channel.
+/// - pressure_span: max p - min p of the cells without solid.
+/// - dissipation: integral 2 mu D : D, mu by the fractions of the cell.
+/// - flow_rate: through the patch `outlet`, or the section of a periodic channel.
+/// - us and dt: as they are.
+/// - limit: what set dt. 0 nothing, 1 -time_step, 2 advective, 3 elastic, 4 start,
+/// 5 -time_step_max, 6 an event to be met (a file or the end), 7 growth after a rejected step,
+/// 8 strain of the solid.
+/// - flow_rate_NAME: out of the domain through each patch NAME that fluid goes through.
+/// - mean_pressure_NAME: of the same patches. At an opening it is the given pressure with the part
+/// of its load, in the middle of the step. If the flow is prescribed, it is that of the cells at
+/// the patch.
+/// - reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in 2-D the width) of
+/// the patch where it is largest.
 std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
 /// Figures by which the result of a solid is judged.

@@ -11,7 +11,7 @@ namespace fsi {
 
 /// How a column is interpolated between two rows.
 enum class Course {
-  smooth,     ///< linear in the time of the flow; also for solid figures half a step behind
+  smooth,     ///< linear in the time of the flow; figures of the solid stay half a step behind
   shape,      ///< linear in the time of the solid, half a step off
   energy,     ///< the same, and never below 0
   pressure,   ///< smooth, but undefined before the first step

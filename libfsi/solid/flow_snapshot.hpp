@@ -93,10 +93,9 @@ struct FlowSnapshot {
   const InterfaceGradient* one_sided = nullptr;
   const Contact* contact = nullptr;  ///< null: the solid touches no boundary
   const CutFaces* cuts = nullptr;    ///< null: L is not bounded by the work
-  bool has_traction =
-      false;  ///< between two viscosities: L is bounded near walls of the simplex zone only
-  Real wave_speed = 0;  ///< c_s of shear waves at rest, sqrt(G / rho)
-  Real recovery = 0;    ///< G / mu_s, rate of an elastic recovery that viscosity slows down
+  bool has_traction = false;         ///< two viscosities: L is bounded only near walls of the zone
+  Real wave_speed = 0;               ///< c_s of shear waves at rest, sqrt(G / rho)
+  Real recovery = 0;  ///< G / mu_s, rate of an elastic recovery that viscosity slows down
   /// The memory, at the end of the step; null: the solid has none.
   const ReferenceMap* memory = nullptr;
 };

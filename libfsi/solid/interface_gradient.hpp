@@ -22,8 +22,7 @@ struct Cuts {
   const CellField<Real>& alpha;       ///< fraction of the solid
   const CellField<Vec3>& normal;      ///< n_hat, out of the solid; zero in cells that are not cut
   const CellField<Real>& solid_side;  ///< l_+, by which u = u_S + j l_+
-  const CellField<Real>&
-      fluid_side;  ///< l_+ - l, by which u = u_F + j (l_+ - l), u_F that of the fluid's side
+  const CellField<Real>& fluid_side;  ///< l_+ - l, by which u = u_F + j (l_+ - l), u_F likewise
 };
 
 /// The velocity at faces of the boundary. At an opening there is neither a given velocity nor an

@@ -104,7 +104,7 @@ struct Body {
   /// Whether elasticity is implicit in part, which it is not with left_cauchy_green.
   bool semi_implicit() const { return extended(); }
   /// Whether the jump of the pressure is moved with the surface. With the map kinematics it is not:
-  /// the error in dt of this step would be as large as its gain (doc/verification/torus.md).
+  /// there the errors in dt of both partly cancel (doc/verification/torus.md).
   bool advects_pressure_jump() const {
     return std::holds_alternative<solid::LogConformation>(kinematics);
   }
@@ -195,7 +195,8 @@ struct Body {
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;
-  std::optional<solid::InterfaceGradient> interface_gradient;  ///< if the mesh has a simplex zone
+  std::optional<solid::InterfaceGradient>
+      interface_gradient;                        ///< with log_conformation in a simplex zone
   std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, with interface_gradient
   CellField<solid::SymGradient> grad;            ///< scratch of both
   std::optional<solid::ReferenceMap> memory;     ///< the memory of log_conformation

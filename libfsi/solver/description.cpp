@@ -42,7 +42,7 @@ OfBody calls_of(const Body& body) {
   if (body.map() != nullptr && body.held) calls.hold = "alpha moved towards the shape of the map";
   calls.advance = body.time_offset() < 1 ? "to half a step after t" : "to the end of the step";
   if (body.advects_pressure_jump()) calls.jump = "pressure jump moved with the surface";
-  if (body.remembers()) calls.memory = "the memory carried by the fluxes";
+  if (body.remembers()) calls.memory = "the memory carried with the flow";
   calls.elastic = elastic(body);
   calls.force = force(body);
   if (body.semi_implicit()) {
