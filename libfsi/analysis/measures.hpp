@@ -10,7 +10,7 @@
 
 namespace fsi::analysis {
 
-/// How sound the strain is: the exact B has det B = 1 and positive eigenvalues.
+/// A check of the strain: the exact B has det B = 1 and positive eigenvalues.
 struct Health {
   /// Extremes of det B and of the smallest eigenvalue.
   Real det_min = 1, det_max = 1, eigenvalue_min = 1;
@@ -26,7 +26,7 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
 /// [Matsumiya25] (25). Every cell for which L is set, owned and halo.
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L);
 
-/// integral 2 mu D : D, D the symmetric part of L: what viscosity turns into heat, per time.
+/// integral 2 mu D : D, D the symmetric part of L: the energy that viscosity dissipates per time.
 Real dissipation(const CellField<Real>& mu, const CellField<Tensor>& L, const Mesh& mesh);
 
 /// Volume-weighted means of an error: L1 = <|e|>, L2 = <e^2>^(1/2), Linf = max |e|.

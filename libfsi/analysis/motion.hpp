@@ -1,14 +1,14 @@
 #pragma once
-// Where the solid is and how it moves.
+// Place and motion of a solid.
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 
 namespace fsi::analysis {
 
-/// Follows a solid across periodic seams: its centroid is home + travelled. `home` is the image
-/// that lies in the mesh; it says next to which point the parts of the solid belong. A checkpoint
-/// keeps all of it, and the record goes on without a jump.
+/// Follows a solid across periodic seams: its centroid is home + travelled. `home` is its image in
+/// the mesh, next to which the parts of the solid are placed. All of this is part of a checkpoint,
+/// so the record continues without a jump.
 struct Tracker {
   Vec3 home;             ///< a point next to the solid, in the mesh
   Vec3 travelled;        ///< whole periods
@@ -26,10 +26,10 @@ struct Motion {
 /// Collective. x_c = sum alpha x V / sum alpha V, [Matsumiya25] (18), u_c = sum alpha u V / sum
 /// alpha V, (22), over owned cells, each at its image nearest to the solid. The solid must be
 /// shorter than half a period, and move by less than that between calls. Without any solid the
-/// centroid stays and the velocity is zero. On return `tracker` stands at the new centroid.
-/// ahead: the time of u less that of alpha. The solid has gone on by u_c ahead when it has u. The
-/// velocity is that at its new place, u_c + ahead sum alpha V (L . u_c) / sum alpha V. Without this
-/// term a solid that turns while it moves seems to move aside.
+/// centroid stays and the velocity is zero. On return `tracker` holds the new centroid. ahead: the
+/// time of u less that of alpha. At the time of u the solid has moved by u_c ahead. The velocity is
+/// that at its new place, u_c + ahead sum alpha V (L . u_c) / sum alpha V. Without this term a
+/// solid that turns while it moves seems to move sideways.
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
               const Mesh& mesh, Real ahead = 0);
 

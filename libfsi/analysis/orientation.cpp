@@ -11,7 +11,7 @@ namespace fsi::analysis {
 
 namespace {
 
-/// v or -v: what agrees with `previous`, or with x where there is none.
+/// v or -v, the one along `previous`, or along x without a previous one.
 Vec3 agreeing(const Vec3& v, const Vec3& previous) {
   return (previous == Vec3{} ? v.x : dot(v, previous)) < 0 ? -v : v;
 }

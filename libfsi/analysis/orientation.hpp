@@ -1,5 +1,5 @@
 #pragma once
-// Which way the solid points.
+// The orientation of a solid.
 
 #include <array>
 

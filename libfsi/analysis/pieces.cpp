@@ -17,7 +17,7 @@ class Sets {
   explicit Sets(Index n) : parent_(static_cast<std::size_t>(n)) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
-  /// The cell that stands for the set of c.
+  /// The cell that represents the set of c.
   Index root(Index c) {
     while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
     return c;
@@ -30,9 +30,9 @@ class Sets {
 
 bool inside(Real alpha) { return alpha > 0.5; }
 
-/// Collective. Gives every cell inside the least global number of its piece. Each rank knows that
-/// of its own part. What a neighbour's part has less goes on from rank to rank until no number
-/// falls any more.
+/// Collective. Gives every cell inside the least global number of its piece. Each rank first has
+/// that of its own part. Smaller numbers of neighbours then pass from rank to rank until no number
+/// changes.
 void spread(CellField<Real>& number, Sets& sets, const CellField<Real>& alpha, const Mesh& mesh) {
   bool falls = true;
   while (falls) {

@@ -42,7 +42,7 @@ void cut(const std::array<Vec3, 3>& q, const Visit& visit) {
   constexpr Real step = 2 * pi / n_azimuths;
   const int last = static_cast<int>(std::ceil((first + high) / step));
   for (int k = static_cast<int>(std::floor((first + low) / step)); k <= last; ++k) {
-    // In a plane of symmetry of the mesh the surface has edges: round-off is not to tell their
+    // In a plane of symmetry of the mesh the surface has edges. Rounding must not decide their
     // side.
     constexpr Real beside = 1e-6;
     const Real c = std::cos(step * k + beside), s = std::sin(step * k + beside);

@@ -1,5 +1,5 @@
 #pragma once
-// How a torus is deformed: the measures of [Matsumiya25] section 3.2.
+// The deformation of a torus: the measures of [Matsumiya25] section 3.2.
 
 #include "libfsi/analysis/ellipse.hpp"
 #include "libfsi/analysis/surface.hpp"
@@ -24,7 +24,7 @@ struct Ring {
   /// Cross-sections of the tube: in the meridian plane (eta, xi) on the side of eta and opposite,
   /// in the prime vertical plane (zeta, xi) on the side of zeta and opposite.
   Ellipse forward, back, right, left;
-  /// Inner and outer outline of the ring seen along xi.
+  /// Inner and outer outline of the ring in the direction of xi.
   Ellipse inner, outer;
   /// 180 degrees less the angle at the centroid between the centres of two opposite cross-sections;
   /// positive where they bend toward xi. Degrees; 0 for a flat ring.

@@ -30,10 +30,10 @@ struct Surface {
 /// The surface alpha = 0.5 within owned cells. alpha is brought to the corners of the cells by
 /// linear interpolation [Holmes89]. The cells are divided into simplices about the mean of their
 /// corners, in 3-D about that of their faces too, and alpha is linear on each. So the parts fit
-/// without gaps, across cells and ranks. Cells away from the surface cost one look at their
+/// without gaps, across cells and ranks. A cell away from the surface costs one loop over its
 /// neighbours. Every part is placed at its image nearest to `about` (a point in the solid), so a
-/// solid on a periodic seam is in one piece. The interpolation rounds the surface off: second
-/// order, 0.1 cells inside at a radius of three cells. alpha: owned and halo.
+/// solid on a periodic seam is in one piece. The interpolation rounds the surface: an error of
+/// second order, 0.1 cells inward at a radius of three cells. alpha: owned and halo.
 Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about);
 
 /// The surface and its images in planes of symmetry, one after the other: that of the whole solid

@@ -7,7 +7,7 @@
 namespace fsi {
 namespace {
 
-/// Whether PETSc takes a word for an option: a dash or two, then a letter.
+/// Whether PETSc reads a word as an option: a dash or two, then a letter.
 bool is_option(const std::string& word) {
   const std::size_t at = word.starts_with("--") ? 2 : 1;
   return word.starts_with("-") && word.size() > at &&

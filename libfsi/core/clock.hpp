@@ -38,7 +38,7 @@ class Schedule {
   Real next(Real t) const;
   /// Whether t is a multiple.
   bool at(Real t) const;
-  /// For a restart at t: what lies before is done.
+  /// For a restart at t: all events before it are done.
   void resume(Real t);
 
  private:
@@ -80,13 +80,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// When a run will be through, by how simulated time came on lately, not by the last step alone.
+/// A forecast of the end of a run, from the recent speed of simulated time, not from the last step
+/// alone.
 class Forecast {
  public:
   /// t: the simulated time at the start.
   explicit Forecast(Real t = 0) : t_(t) {}
   /// Seconds from now to `end`, at simulated time t after `wall` seconds: by the mean of the speed
-  /// since the last call and what was taken then; infinite where time does not come on.
+  /// since the last call and the speed used then; infinite if time does not advance.
   Real seconds_left(Real wall, Real t, Real end);
   /// "120 s"; "more than 10 days" from there on.
   static std::string text(Real seconds);

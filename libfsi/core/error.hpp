@@ -1,5 +1,5 @@
 #pragma once
-// Errors: exceptions inside the library, codes at its rim. fsi::run (core/run.hpp) holds the last
+// Errors: exceptions inside the library, exit codes outside. fsi::run (core/run.hpp) holds the last
 // catch and turns a kind into the exit code of the program.
 
 #include <petscsys.h>
@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// What went wrong, as the exit code a sweep script sees.
+/// The kind of an error, which is the exit code of the program.
 enum class ErrorKind : int {
   input = 2,      ///< the user's options, mesh or files: names the culprit and the valid choices
   numerics = 3,   ///< a solve failed or a field is not finite, after all retries

@@ -1,11 +1,11 @@
 #pragma once
-// What every use of HDF5 needs: things that are closed, errors that are not printed.
+// Handles that close HDF5 objects, and a scope without its error messages.
 
 #include <hdf5.h>
 
 namespace fsi {
 
-/// An open HDF5 thing, closed at the end of its scope.
+/// An open HDF5 object, closed at the end of its scope.
 class Hdf5Handle {
  public:
   /// close: what frees the id.

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory a program may have.
+// The memory that a program may have.
 
 #include <cstdint>
 #include <string>

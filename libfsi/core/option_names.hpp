@@ -1,5 +1,5 @@
 #pragma once
-// Names of options: whose they are, and which one was meant.
+// Names of options: their owner, and the nearest valid name.
 
 #include <cstddef>
 #include <string>
@@ -14,7 +14,7 @@ bool of_petsc(const std::string& name);
 /// hold.
 bool of_solver(const std::string& name);
 
-/// The word that stands nearest to a name, by no more edits than `most`; "" where there is none.
+/// The word nearest to a name, by no more edits than `most`; "" where there is none.
 std::string nearest(const std::string& name, const std::vector<std::string>& valid,
                     std::size_t most = std::string::npos);
 

@@ -100,7 +100,7 @@ std::vector<std::string> unread() {
   return list;
 }
 
-/// The options that were given, from whatever source: name and value.
+/// The options that were given, from all sources: name and value.
 std::vector<std::pair<std::string, std::string>> all_given() {
   char* text = nullptr;
   FSI_PETSC(PetscOptionsGetAll(nullptr, &text));

@@ -56,7 +56,7 @@ class Options {
   /// True when the user asked for -help: the driver reads its options, then ends.
   bool help() const { return help_; }
   /// Unknown options of ours and of PETSc: Error{input} naming each with its nearest valid name.
-  /// Call before the first step for names nobody can read, and after it for solver options.
+  /// Call it before the first step for names that nothing reads, and after it for solver options.
   void check_unknown() const;
   /// Options that nothing has read, but for the general ones of PETSc: Error{input}.
   void check_unused() const;

@@ -14,7 +14,7 @@ struct Names {
   std::set<std::string> seen;
   std::string twice;  ///< the first that came again
 
-  /// PETSc's options know no capitals.
+  /// PETSc's options do not distinguish capitals.
   void note(const std::string& name) {
     if (!seen.insert(plain_name(name)).second && twice.empty()) twice = name;
   }
@@ -50,7 +50,7 @@ std::size_t past_quoted(const std::string& text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// Past the word of a {...} or [...] that begins at `at`.
+/// The place behind a word of {...} or [...] that begins at `at`.
 std::size_t past_word(const std::string& text, std::size_t at) {
   if (one_of(text[at], "\"'")) return past_quoted(text, at);
   const auto ends = [&](std::size_t i) {
@@ -101,7 +101,7 @@ std::size_t past_flow(const std::string& text, std::size_t at, const std::string
   }
 }
 
-/// Where the : stands that ends the key at `first` of a line; its end where there is no key.
+/// The place of the : that ends the key at `first` of a line; the end of the line without a key.
 std::size_t end_of_key(const std::string& text, std::size_t first, std::size_t end) {
   if (text[first] == '#' || (text[first] == '-' && blank(text[first + 1]))) return end;
   std::size_t at = one_of(text[first], "\"'") ? past_quoted(text, first) : first;

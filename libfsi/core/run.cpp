@@ -85,7 +85,7 @@ void check_file(const OptionsFile& file) {
   require(twice.empty(), "options file \"" + name + "\" gives " + twice + " twice");
 }
 
-/// Says that a petscrc of the folder takes part, which nobody sees on the command line.
+/// A notice that a petscrc of the folder is used, which the command line does not show.
 void tell_of_petscrc() {
   const auto given = [](const char* name) {
     PetscBool found = PETSC_FALSE;
@@ -127,7 +127,7 @@ void start_petsc(Arguments& arguments) {
   if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));
 }
 
-/// What -version tells: the program and what it is built with.
+/// The text of -version: the program and the libraries that it is built with.
 void print_version(const char* program) {
   int mine = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &mine);

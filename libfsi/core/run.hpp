@@ -1,5 +1,5 @@
 #pragma once
-// The rim of every program: set-up and tear-down of MPI and PETSc, and the last catch.
+// The frame of every program: set-up and tear-down of MPI and PETSc, and the last catch.
 
 #include <functional>
 #include <string>

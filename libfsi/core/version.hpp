@@ -1,5 +1,5 @@
 #pragma once
-// Which libfsi this is.
+// The version of libfsi.
 
 #include <string>
 

@@ -30,10 +30,10 @@ class Band {
   const std::vector<Index>& last_core() const { return last_core_; }
   /// Owned cells of the set, in the order of core(), then those around it.
   const std::vector<Index>& cells() const { return cells_; }
-  /// 1 in `cells`, also in those of other ranks; 0 elsewhere: where a field of the band needs its
-  /// halo.
+  /// 1 in `cells`, also in those of other ranks; 0 elsewhere. The cells in which a field of the
+  /// band needs its halo.
   const CellField<Real>& listed() const { return listed_; }
-  /// Faces of `cells`, and all faces between ranks beside them: both ranks list the same.
+  /// Faces of `cells`, and all faces between ranks next to them: both ranks list the same.
   const std::vector<Index>& faces() const { return faces_; }
   /// Row i: owned cells that share a vertex with halo cell n_owned + i.
   const Csr& around_halo() const { return halo_neighbours_; }

@@ -23,7 +23,7 @@ struct Slip {};
 /// Prescribed velocity u(x, t).
 struct FixedVelocity {
   std::function<Vec3(const Vec3& x, Real t)> u;  ///< velocity at x and t
-  /// What u does over time, where that is known better than by samples of u: steps follow it.
+  /// The change of u over time, if it is known better than by samples of u; it limits the steps.
   OfTime pace = OfTime::nothing();
 };
 /// A flow rate into the domain (negative: out of it), spread over the patch.
@@ -32,7 +32,7 @@ struct FlowRate {
   InflowProfile profile = InflowProfile::parabola;  ///< how the flow is spread over the patch
   std::vector<Vec3> shape{};  ///< [faces] velocity at rate 1; set by `resolve`
 };
-/// What lies beyond an opening: a resistance, and behind it another one beside a capacitance.
+/// The load of an opening: a resistance, and behind it another one parallel to a capacitance.
 struct Load {
   Real proximal = 0;     ///< R_p, pressure per flow rate
   Real distal = 0;       ///< R_d
@@ -55,17 +55,17 @@ using Condition = std::variant<Wall, Slip, FixedVelocity, FlowRate, Opening>;
 /// Patch name -> condition.
 using Conditions = std::map<std::string, Condition>;
 
-/// The conditions of a mesh's patches, in their order.
-/// Collective. Errors: Error{input} where a patch has no condition or a condition no patch, or a
-/// wall moves through itself. So it is where a load is negative or has a capacitance without a
-/// resistance beside it, where a function is empty, and where there is an `imbalance` at t = 0.
+/// The conditions of a mesh's patches, in their order. Collective. Errors: Error{input} where a
+/// patch has no condition or a condition no patch, or a wall moves through itself. Also if a load
+/// is negative or has a capacitance without a parallel resistance, if a function is empty, or if
+/// there is an `imbalance` at t = 0.
 std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh);
 
-/// Collective. Where no patch gives the pressure, what flows in must flow out. Says what does not,
-/// past 1e-3 of what passes the patches, or 2 % where a velocity is given, which is sampled in the
-/// middle of faces; "" where it does, or where it is not finite. What is less the projection
-/// spreads over the patches. passed: the most that passed them so far, which counts where it is
-/// more; on return with what passes now.
+/// Collective. If no patch gives the pressure, inflow and outflow must be equal. Returns a message
+/// if they differ by more than 1e-3 of the flow through the patches, or by 2 % if a velocity is
+/// given, which is sampled in the middle of faces. Returns "" if they agree or are not finite. The
+/// projection spreads a smaller difference over the patches. passed: the largest flow through them
+/// so far, which counts if it is larger than the present one; updated on return.
 std::string imbalance(Real& passed, const BoundaryField<Vec3>& u_b,
                       const std::vector<Condition>& conditions, const Mesh& mesh);
 
@@ -73,8 +73,8 @@ std::string imbalance(Real& passed, const BoundaryField<Vec3>& u_b,
 void set_boundary_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                            const std::vector<Condition>& conditions, Real t, const Mesh& mesh);
 
-/// How long a step from t may be for what the conditions give over time (`step_of`), but for
-/// velocities without a pace (OfPlaceAndTime).
+/// The longest step from t by the values that the conditions give over time (`step_of`), without
+/// velocities that need samples (OfPlaceAndTime).
 Real conditions_dt(const std::vector<Condition>& conditions, Real t, Real end);
 
 /// Whether the condition gives the velocity (for its gradient and the implicit viscous term).

@@ -1,5 +1,5 @@
 #pragma once
-// What a fraction of solid counts as.
+// Limits of the fraction of solid.
 
 #include "libfsi/core/types.hpp"
 

@@ -11,9 +11,10 @@
 
 namespace fsi {
 
-/// Follows a function u(x, t) at up to eight points. The first is where a component comes farthest
-/// from its value at t = 0, in 64 samples of the run. Each next one is where a component does so in
-/// those samples in which no other one is a tenth of the largest range away from its own.
+/// Samples a function u(x, t) at up to eight points, to limit steps by its change in time. The
+/// first point is that where a component differs most from its value at t = 0, in 64 samples of the
+/// run. Each next point is chosen likewise, from those samples in which no earlier point differs
+/// from its value at t = 0 by a tenth of the largest range.
 class OfPlaceAndTime {
  public:
   /// A vector at a place and a time.
@@ -21,9 +22,9 @@ class OfPlaceAndTime {
   /// points: of this rank, where the function is used. They must outlive it.
   OfPlaceAndTime(Function given, std::span<const Vec3> points)
       : given_(std::move(given)), points_(points) {}
-  /// Collective. How long a step from t may be in which none of these changes by more than a tenth
-  /// of the largest range in [0, end]. Never less than a part in 1e5 of end; end where the function
-  /// is constant in time. What lasts for less than a part in 64 of the run may be missed.
+  /// Collective. The longest step from t in which none of these changes by more than a tenth of the
+  /// largest range in [0, end]. Never less than a part in 1e5 of end; end if the function is
+  /// constant in time. A change that lasts for less than a part in 64 of the run may be missed.
   Real step_of(Real t, Real end) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What is given over time.
+// A number that is given over time.
 
 #include <array>
 #include <functional>
@@ -27,13 +27,13 @@ class OfTime {
   /// A function of time and its range between two times.
   OfTime(std::function<Real(Real)> function, std::function<Range(Real, Real)> range)
       : at_(std::move(function)), range_(std::move(range)) {}
-  /// Where nothing is given.
+  /// No value given.
   static OfTime nothing() {
     OfTime none;
     none.at_ = nullptr;
     return none;
   }
-  /// Whether anything is given.
+  /// Whether a value is given.
   bool any() const { return static_cast<bool>(at_); }
   /// Its value at time t.
   Real operator()(Real t) const { return at_(t); }
@@ -45,14 +45,14 @@ class OfTime {
   std::function<Range(Real, Real)> range_;
 };
 
-/// How long a step from t may be in which `given` changes by no more than a tenth of its range in
-/// [0, end]. Never less than a part in 1e5 of end, in which it may jump; end where it is constant.
+/// The longest step from t in which `given` changes by no more than a tenth of its range in [0,
+/// end]. Never less than a part in 1e5 of end, in which it may jump; end if it is constant.
 Real step_of(const OfTime& given, Real t, Real end);
 /// The same for a tenth of `most`, 0 or more, in place of that of its own range.
 Real step_of(const OfTime& given, Real most, Real t, Real end);
 
-/// The k-th of numbers in [0, 1) that fill it evenly and whose distances are those of no period:
-/// the fractions of multiples of the golden ratio.
+/// The k-th number of a sequence that fills [0, 1) evenly and has no period: the fractions of
+/// multiples of the golden ratio.
 Real golden(int k);
 
 }  // namespace fsi

@@ -24,7 +24,7 @@ CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::str
   for (Index f = first.begin; f < first.end; ++f) q_b[f - mesh.n_internal] = 1;
   projection.project(phi, q, grad, q_b, 0);
 
-  // Slices at least about two cells long, by the volume: potential falls faster where it is narrow.
+  // Slices of about two cells at least, by volume: the potential falls faster in narrow parts.
   const Real across = std::cbrt(static_cast<Real>(mesh.n_global));
   const int slices = std::clamp(static_cast<int>(across), 4, 200);
   std::vector<Sum> sums(4 * static_cast<std::size_t>(slices));
@@ -58,7 +58,7 @@ std::pair<Vec3, Vec3> CentreLine::at(Real s) const {
                                             static_cast<std::ptrdiff_t>(arc_.size()) - 1);
   const Vec3 step = points_[i] - points_[i - 1];
   const Real share = (s - arc_[i - 1]) / (arc_[i] - arc_[i - 1]);
-  // The direction over a few slices: single ones lie as near to each other as they are uneven.
+  // The direction over a few slices: the distance of single ones is as small as their errors.
   const std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, i - 3),
                        high = std::min<std::ptrdiff_t>(
                            static_cast<std::ptrdiff_t>(points_.size()) - 1, i + 2);

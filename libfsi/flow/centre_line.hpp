@@ -9,9 +9,9 @@
 
 namespace fsi::flow {
 
-/// The points of the line are the centres of the surfaces of equal potential q, Lap q = 0, q = 1 at
-/// the first patch, 0 at the second, no flux through all others. Cells count by V |grad q|^2, so
-/// that dead ends, where the potential stands still, do not.
+/// The points of the line are the centres of the surfaces of equal potential q. Here Lap q = 0, q =
+/// 1 at the first patch, 0 at the second, and no flux passes through all others. Cells have the
+/// weight V |grad q|^2, so that dead ends with constant q do not count.
 class CentreLine {
  public:
   /// Collective. Errors: Error{input} where the mesh has no such patches.

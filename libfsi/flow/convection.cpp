@@ -18,7 +18,7 @@ void add_boundary(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellF
   }
 }
 
-/// psi (a) of r = 2 slope / rise - 1, by what a limited step takes of `step`.
+/// Sw(r) step with r = 2 slope / rise - 1 [Sweby84].
 Real limited_part(Real slope, Real rise, Real step) {
   const Real r = rise != 0 ? 2 * slope / rise - 1 : 1;
   return std::clamp(2 * r, Real{0}, Real{1}) * step;

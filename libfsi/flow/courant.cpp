@@ -9,10 +9,10 @@
 namespace fsi::flow {
 namespace {
 
-constexpr Real central = 0.6;  // Adams-Bashforth of third order bears 0.72
+constexpr Real central = 0.6;  // Adams-Bashforth of third order is stable to 0.72
 constexpr Real upwind = 0.3;   // of second order
-constexpr Real damped = 0.2;   // Adams-Bashforth of third order bears it beside 0.6 i
-constexpr Real tiny = 1e-30;   // a Courant number that is none
+constexpr Real damped = 0.2;   // Adams-Bashforth of third order is stable with it and 0.6 i
+constexpr Real tiny = 1e-30;   // a Courant number that counts as 0
 
 }  // namespace
 
@@ -69,13 +69,14 @@ std::vector<Real> Courant::of_neighbourhood(const std::vector<Real>& swept) cons
   return rate;
 }
 
-// With A the skew convection of a step and k_f = a_f |phi_f| dt / 2, v*Av = i sum_f phi_f dt
-// Im(v_P* v_N). A part s of it is at most s |phi_f| dt |v_P| |v_N - v_P| <= C k_f |v_N - v_P|^2 +
-// s^2 |phi_f| dt / (2 C a_f) |v_P|^2, the rest (1 - s) |phi_f| dt / 2 (|v_P|^2 + |v_N|^2). So the
-// faster cell N asks for 1 - s <= C / Co_N and the slower P for 1 - s + s^2 / (C a_f) <= C / Co_P,
-// for all of v*Av to stay below C v*(V + K)v.
-// What a cell's boundary faces b carry damps it by sum_b |phi_b| dt / 2, and the upwind share by
-// beta |phi_f| dt / 2 |v_N - v_P|^2. Both are explicit, too, and shall be 0.2 of K at most.
+// Let A be the skew convection of a step, k_f = a_f |phi_f| dt / 2 and s = iota_f. Then v*Av = i
+// sum_f phi_f dt Im(v_P* v_N). A part s of it is at most s |phi_f| dt |v_P| |v_N - v_P|, and so
+//   <= Co_0 k_f |v_N - v_P|^2 + s^2 |phi_f| dt / (2 Co_0 a_f) |v_P|^2.
+// The rest is at most (1 - s) |phi_f| dt / 2 (|v_P|^2 + |v_N|^2). All of v*Av shall be below Co_0
+// v*(V + K)v. So the faster cell N needs 1 - s <= Co_0 / Co_N, and the slower cell P needs 1 - s +
+// s^2 / (Co_0 a_f) <= Co_0 / Co_P. The flux of a cell's boundary faces b damps it by sum_b |phi_b|
+// dt / 2, and the upwind share by beta |phi_f| dt / 2 |v_N - v_P|^2. Both are explicit too, and
+// shall be at most 0.2 of K.
 void Courant::add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, Real rho, Real dt,
                            const FaceWeights& weights) {
   for (Index c = 0; c < mesh_.n_owned; ++c) {

@@ -27,7 +27,7 @@ void Density::add(Real rho, const CellField<Real>& alpha, const FaceField<Real>&
   for (const Index f : faces) of_face_[f] += excess * alpha_f[f];
 }
 
-// D_c,k = rho_c + (1/V) sum_f lambda_cf (rho_f - rho_c) d_k S_k
+// rhohat_c,k = rho_c + (1/V) sum_f lambda_cf (rho_f - rho_c) d_k S_k
 void Density::finish() {
   for (Index f = 0; f < mesh_.n_faces; ++f) of_face_[f] = std::clamp(of_face_[f], least_, most_);
   for (Index c = 0; c < mesh_.n_cells; ++c) {

@@ -20,14 +20,14 @@ Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Rea
       potential_(mesh),
       potential_b_(mesh) {
   for (Index f = 0; f < mesh.n_internal; ++f) phi_1_[f] = dot(axis_, mesh.Sf[f]);
-  // Round-off is enough in a straight channel, where the uniform field is the answer itself.
+  // Rounding is enough in a straight channel, where the uniform field is the solution itself.
   constexpr Real round_off = 1e-13;
   projection.project(phi_1_, potential_, u_1_, potential_b_, round_off * mesh.total_volume);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = axis_ - u_1_[c];
   mean_1_ = mean(phi_1_);
 }
 
-// phi_1 = rho_0 / rho_f (axis . S), projected;   u_1 = rho_0 axis / D - rho_0 grad q / D
+// phi_1 = rho_0 / rho_f (axis . S), projected;   u_1 = rho_0 axis / rhohat - rho_0 grad q / rhohat
 void Forcing::renew(Projection& projection, const Density& density, Real absolute) {
   phi_1_.fill(0);
   for (Index f = 0; f < mesh_.n_internal; ++f)

@@ -1,5 +1,5 @@
 #pragma once
-// The uniform pressure gradient that holds the mean velocity of a periodic channel.
+// The uniform force S that holds the mean velocity of a periodic channel.
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/flow/projection.hpp"
@@ -10,21 +10,23 @@ namespace fsi::flow {
 ///   (1/V) sum_f phi_f d_f . axis,   sum over all faces of the mesh; exact where div u = 0.
 Real mean_velocity(const FaceField<Real>& phi, const Vec3& axis, const Mesh& mesh);
 
-/// Holds the mean velocity along `axis` exactly. The flux of a projected uniform force, phi_1, is
-/// divergence-free, so adding a multiple of it keeps div u = 0:
-///   c = (U - mean(phi)) / mean(phi_1),   phi += c phi_1,   u += c u_1,   S += rho c / dt.
-/// The mean is that above. Of a divergence-free flux it is the same through every section, so
-/// nothing happens when a particle crosses the seam.
+/// Holds the mean velocity U_0 along `axis`. The flux phi_1 of a projected uniform force is
+/// divergence-free, so a multiple of it keeps div u = 0:
+///   eta = (U_0 - mean(phi)) / mean(phi_1),   phi += eta phi_1,   u += eta u_1,
+///   S += (rho / dt + kappa_w) eta.
+/// The mean is that of `mean_velocity`. For a divergence-free flux it is the same through every
+/// section, so a particle that crosses the period changes nothing.
 class Forcing {
  public:
   /// Collective. Projects a uniform force along the axis once.
   Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Real mean_velocity);
 
-  /// Collective. The response of a density: a uniform force accelerates a solid by less or more.
+  /// Collective. Sets phi_1 and u_1 anew for a density: a uniform force accelerates a solid by less
+  /// or more than the fluid.
   void renew(Projection& projection, const Density& density, Real absolute);
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
-  /// friction: what it adds to rho / dt (bulk_friction.hpp).
+  /// friction: kappa_w (bulk_friction.hpp).
   void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt);
 
   /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.

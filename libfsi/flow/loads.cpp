@@ -73,7 +73,7 @@ void Loads::solve() {
   }
 }
 
-// p_held + rho / dt pi_j = a_j + b_j (Q_j* + sum_k S_jk pi_k - dt trend_j / 2)
+// p_held + rho / dt pi_j = a_j + b_j (Q_j* + sum_k Y_jk pi_k - dt trend_j / 2)
 void Loads::answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real t,
                    Real dt) {
   const std::size_t n = responses_.size();

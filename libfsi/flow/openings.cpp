@@ -22,7 +22,7 @@ Openings::Openings(const Mesh& mesh, const std::vector<Condition>& conditions, R
 }
 
 /// Collective. Subtracts from e its part along the basis, twice against rounding, and scales it to
-/// norm 1; false where nothing is left.
+/// norm 1; false if e lies in their span.
 bool Openings::orthonormalise(const One& opening, std::vector<Real>& e) const {
   const auto product = [&](const std::vector<Real>& a, const std::vector<Real>& b) {
     Sum sum;

@@ -1,5 +1,5 @@
 #pragma once
-// What stands at the openings of the boundary: pressure and velocity there.
+// Pressure and velocity at the openings of the boundary.
 
 #include <cstdint>
 #include <vector>
@@ -13,17 +13,17 @@ namespace fsi::flow {
 
 /// The openings of a mesh.
 ///
-/// A given static pressure leaves the flow into the domain without a bound on the energy it brings
-/// along. What flows in faster brings more, and on tetrahedra single faces run away at Reynolds
-/// numbers of some hundred. So the total pressure is given for what departs from a smooth profile,
+/// A given static pressure sets no bound on the kinetic energy that enters with the flow. A faster
+/// inflow brings more energy, and on tetrahedra the inflow through single faces grows without bound
+/// at Reynolds numbers of some hundred. The given pressure therefore acts as a total pressure for
+/// the part of the inflow that departs from a smooth profile,
 ///
-///   p_b = p + rho / 2 (s U^2 - u_n^2)     where u_n = u_P . n < 0,
+///   p_b = p + rho / 2 (epsilon uhat_n^2 - u_n^2)     where u_n = u_P . n < 0.
 ///
-/// U is the best fit of u_n over the opening by polynomials of up to fourth degree in its plane, as
-/// many as a quarter of its faces bears. s is the part of the inflow that is not flow back, max(0,
-/// sum of inflow and outflow) / inflow. So an inlet whose profile is smooth keeps its static
-/// pressure. Flow back into an outlet costs its own dynamic pressure: the directional do-nothing
-/// condition [Braack14].
+/// uhat_n is the least-squares fit of u_n over the opening by polynomials of up to fourth degree in
+/// its plane, at most one for four faces. epsilon is the net inflow over the inflow, and 0 if the
+/// net flow is outward. A smooth inlet thus keeps its static pressure. Backflow into an outlet
+/// costs its own dynamic pressure, as with the directional do-nothing condition [Braack14].
 class Openings {
  public:
   /// Collective.
@@ -31,26 +31,26 @@ class Openings {
 
   /// Collective. Pressure on the faces of openings. u: owned.
   void set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u);
-  /// `pressure` of openings without a load goes on to time t; q_b = factor times its change.
+  /// Takes `pressure` of openings without a load to time t; q_b = factor times its change.
   void advance(BoundaryField<Real>& q_b, Real t, Real factor);
   /// Velocity on the faces of openings: no gradient along the normal,
   ///   u_b = u_P + L_f . t,  t the part of d along the face.
   /// L_f: at irregular faces.
   void set_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                     const std::vector<Tensor>& L_f, const FaceWeights& weights) const;
-  /// What flows in does so along the normal: u_b = phi S / |S|^2 where phi < 0.
+  /// Inflow enters along the normal: u_b = phi S / |S|^2 where phi < 0.
   void set_inflow(BoundaryField<Vec3>& u_b, const FaceField<Real>& phi) const;
 
   /// An opening.
   struct One {
     Patch patch;   ///< its faces
     OfTime given;  ///< the pressure that is given
-    Load load;     ///< between it and the opening
+    Load load;     ///< between the given pressure and the opening
     // part of a checkpoint:
     Real pressure = 0;            ///< in the middle of the last step
     Real stored = 0;              ///< of the load's capacitance, at the end of the last step
     Real flow = 0;                ///< out of a loaded opening, at the end of the last step
-    std::int64_t flow_known = 0;  ///< whether there was one
+    std::int64_t flow_known = 0;  ///< whether there was a last step
     Real trend = 0;               ///< change of flow in the last step, per time
     Vec3 normal{};                ///< outward, of the patch as a whole
     std::vector<std::vector<Real>> basis{};  ///< [functions][faces], orthonormal by area

@@ -77,10 +77,12 @@ void Orthogonal::set_flux(FaceField<Real>& phi, const CellField<Vec3>& u) {
       phi[f] += dot(dot(L_f_[i], weights.from_mirror(f, mesh_)), mesh_.Sf[f]);
 }
 
-// The part of L_f . s' in V G p, with p_N - p_P at the faces in place of the flux:
-//   T_c = sum_f lambda_cf (p_N - p_P) S (x) s',   V G p_n += T_c . g_cf,   V G p_c -= T_c . g_cf.
-// Cell n lies beyond face f of c, lambda_cf is the weight of c in L_f, g_cf that of f in L_c.
-// At a face that slips only the normal part of u_b - u_c = -(u_c . n) n depends on u_c.
+// The part of L_f . delta in V calG p, delta = delta_1-lambda, with p_N - p_P at the faces in place
+// of the flux:
+//   T_c = sum_f lambda_cf (p_N - p_P) S (x) delta,
+//   V calG p_n += T_c . g_cf,   V calG p_c -= T_c . g_cf.
+// Cell n lies beyond face f of c, lambda_cf is the weight of c in L_f, g_cf that of f in L_c. At a
+// face that slips only the normal part of u_b - u_c = -(u_c . n) n depends on u_c.
 void Orthogonal::add_skewed(CellField<Vec3>& grad, const CellField<Real>& p) {
   const FaceWeights& weights = stencil_.weights;
   L_.fill({});
@@ -108,7 +110,7 @@ void Orthogonal::add_skewed(CellField<Vec3>& grad, const CellField<Real>& p) {
   mesh_.halo.add_to_owner(reinterpret_cast<Real*>(grad.data()), components<Vec3>);
 }
 
-// V G p = sum_f lambda_cf (p_N - p_P) S, lambda_cf the weight of c in U, and the part of L_f
+// V calG p = sum_f lambda_cf (p_N - p_P) S, lambda_cf the weight of c in Phi, and the part of L_f
 void Orthogonal::set_gradient(CellField<Vec3>& grad, const CellField<Real>& p) {
   const FaceWeights& weights = stencil_.weights;
   grad.fill({});
@@ -123,7 +125,8 @@ void Orthogonal::set_gradient(CellField<Vec3>& grad, const CellField<Real>& p) {
   mesh_.halo.update(grad);
 }
 
-// -M q = -D phi by conjugate gradients, r = -D (phi - U(G q)); -M has no negative eigenvalue
+// -M q = -div phi by conjugate gradients, r = -div(phi - Phi(calG q)); -M has no negative
+// eigenvalue
 int Orthogonal::project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
                         LinearSystem& compact, Real absolute) {
   constexpr int most = 100;

@@ -19,7 +19,7 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-/// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f all that is implicit.
+/// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f the sum of all implicit coefficients.
 Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
   const Real implicit =
       terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
@@ -32,8 +32,9 @@ Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
-  // At the solid's surface the brace is a jump, and its flux an error of the size of dt.
-  constexpr Real courant = 0.02, whole = 1e-7;  // balance of a face where the stress acts fully
+  // At the solid's surface the braces contain a jump, and its flux is an error in proportion to
+  // t_f.
+  constexpr Real courant = 0.02, whole = 1e-7;  // |c_f| over the stress where t_f is at its bound
   const auto time = [&](Index f, const Vec3& u_f) {
     const Real size = std::abs(terms.rhie_chow_source[f]);
     if (size == 0) return terms.dt;
@@ -176,8 +177,8 @@ void Projection::subtract_gradient(FaceField<Real>& phi, const CellField<Real>& 
   }
 }
 
-// A constant added to q changes the flux of the openings alone: that which leaves no net flux is
-// the best correction in the span of the constant, whatever the solver's tolerance has left.
+// A constant added to q changes the flux through the openings alone. The constant that leaves no
+// net flux corrects what the solver's tolerance has left.
 void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
   if (!open_) return;
   Sum net;
@@ -193,8 +194,8 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
                                 const BoundaryField<Real>& q_b, Real absolute) {
   balance_boundary(phi);
   if (orthogonal_) return project_cells(phi, q, grad_q, q_b, absolute);
-  // The solves before the last only feed the non-orthogonal term, a part of q's own size times the
-  // sine of the angle: two digits are enough there.
+  // The solves before the last one only set the non-orthogonal term, which is q times the sine of
+  // the angle. Two digits are enough for it.
   constexpr Real loosened = 1e4, two_densities = 1e-2;
   const Real last = density_ != nullptr ? two_densities : 1;
   q.fill(0);
@@ -223,8 +224,9 @@ void Projection::make_orthogonal(const GradientStencil& stencil,
   rest_.emplace(mesh_);
 }
 
-// phi = phi* - U(G q) - g (r_N - r_P), A r = D (phi* - U(G q)): q moves cells and faces alike, r
-// the faces alone, by the tenth that is left.
+// phi = phi* - Phi(calG q) - g (r_N - r_P), A r = div(phi* - Phi(calG q)): q changes cells and
+// faces alike, r only the faces, by the tenth that is left. r is q' of
+// doc/theory/orthogonal_projection.md.
 SolveResult Projection::project_cells(FaceField<Real>& phi, CellField<Real>& q,
                                       CellField<Vec3>& grad_q, const BoundaryField<Real>& q_b,
                                       Real absolute) {
@@ -263,12 +265,12 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
   }
 }
 
-// u* = u^(n+1) + grad q obeys the predictor, u^(n+1) does not: theta mu Lap grad q = grad(theta mu
-// Lap q) is left, with Lap q = div u*                                  [Brown01], [Timmermans96]
+// u* = u^(n+1) + grad q obeys the predictor, u^(n+1) does not. The difference is theta mu Lap grad
+// q = grad(theta mu Lap q), with Lap q = div u*      [Brown01], [Timmermans96].
 //
-// A p that differs from all neighbours' is answered by the predicted flux K = sum_f g |d|^2 / (2 V)
-// times as much as chi mu_c div u* makes of it. K is dim on quads and hexes, and chi K must be less
-// than 2.
+// An error of p that differs from all its neighbours changes the predicted flux. Through it the
+// term chi mu_c div u* takes up to chi K times the error off p, K = sum_f g |d|^2 / (2 V). K is dim
+// on quads and hexes, and chi K must be less than 2.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
                           const FaceField<Real>& kappa, const FaceField<Real>& theta,
                           const FaceWeights& weights, const Mesh& mesh) {

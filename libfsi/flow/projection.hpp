@@ -15,59 +15,61 @@
 
 namespace fsi::flow {
 
-/// What enters the face flux besides u*.
+/// The terms of the face flux in addition to u*.
 struct FluxTerms {
-  const std::vector<Tensor>& L_f;           ///< of u*, at irregular faces; of u^n beside a surface
-  const CellField<Real>& p;                 ///< pressure at the cells
-  const CellField<Vec3>& grad_p;            ///< its averaged gradient
-  const std::vector<Vec3>& grad_p_f;        ///< of p at irregular faces
-  const BoundaryField<Real>& p_b;           ///< read on openings only
-  const FaceField<Real>& rhie_chow_source;  ///< elastic counterpart c_f (s_N - s_P) - (grad s)_f .
-                                            ///< d; 0 outside the solid
-  const FaceField<Real>& mu;                ///< viscosity at the faces
-  const FaceField<Real>& theta;             ///< implicit share of the viscous term
-  const FaceField<Real>& kappa;    ///< implicit besides the viscosity; 0 away from the solid
-  const FaceField<Real>& elastic;  ///< what of it stands in for elasticity
+  /// Of u*, at irregular faces; of u^n between cells of InterfaceGradient.
+  const std::vector<Tensor>& L_f;
+  const CellField<Real>& p;           ///< pressure at the cells
+  const CellField<Vec3>& grad_p;      ///< its averaged gradient
+  const std::vector<Vec3>& grad_p_f;  ///< of p at irregular faces
+  const BoundaryField<Real>& p_b;     ///< read on openings only
+  /// c_f, counterpart of elastic stress and body force; 0 outside the solid.
+  const FaceField<Real>& rhie_chow_source;
+  const FaceField<Real>& mu;       ///< viscosity at the faces
+  const FaceField<Real>& theta;    ///< implicit share of the viscous term
+  const FaceField<Real>& kappa;    ///< implicit in addition to theta mu; 0 away from the solid
+  const FaceField<Real>& elastic;  ///< the part of kappa for elasticity
   /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
-  const Density* density = nullptr;        ///< none: rho everywhere
+  const Density* density = nullptr;        ///< null: rho everywhere
   const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
-  Real stress = 0;                         ///< scale of the elastic stress; 0: there is none
-  Real flux_strain =
-      0;  ///< dt G alpha_f lambda_B / elastic where the flux strains the solid; 0: it does not
+  Real stress = 0;                         ///< scale of the elastic stress; 0 without one
+  /// dt G alpha_f lambda_B / elastic where the flux strains the solid; 0: it does not.
+  Real flux_strain = 0;
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
-///   phi = U(u*)_f . S + d_f { U(grad p)_f . S - (g (p_N - p_P) + k . (grad p)_f) + g c_f },
-///   U(u)_f = lambda u_P + (1 - lambda) u_N (+ L_f . (x_f - x_m) for u*),
-///   d_f = t_f / (rho + 4 t_f (theta mu_f + kappa_f + 2 dt G alpha_f lambda_B) / |d|^2).
-/// Each cell has the weight of its own part of the way, x_m = x_P + (1 - lambda) d. Then the sum
-/// over faces of U . S and the pressure's gradient are adjoint but for the skewness. With d_f = dt
-/// and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A the Laplacian of the compact
-/// gradients, M of the averaged ones. M is between 0 and 2 A on any mesh, so nothing grows
-/// [Trias14]. The brace compares the compact with the averaged gradient of p and of the elastic
-/// normal stress; it vanishes for linear fields. The last part of d_f stands where the flux strains
-/// the solid. There an elastic normal stress that alternates from cell to cell makes a flux whose
-/// strain takes 8 d_f dt G lambda_B / |d|^2 of it off in a step, no more than all of it. t_f = dt,
-/// but where elastic stress acts not more than 0.02 |d| / |u_f|, gradually from none of c_f to 1e-7
-/// of the stress. Else the jump at the surface of a solid would leak through it with a flux in
-/// proportion to dt. With a density rho is that of the face, and what the cells make of all forces
-/// is taken out for what the face makes of them (flow/density.hpp). Where everything moves with one
-/// acceleration U(u*) is right already, and this with the brace is zero. Boundary: prescribed
-/// velocity, or the same with p_b at openings. On return every face of phi is set. u: owned and
-/// halo.
+///   phi* = Phi(u*) + d_f { Phi(grad p) - g (p_N - p_P) - k . (grad p)_f + g c_f },
+///   Phi(v) = [lambda v_P + (1 - lambda) v_N (+ L_f . delta_1-lambda for u*)] . S,
+///   d_f = t_f / (rho + 4 t_f (theta_f mu + kappa + 2 dt G alpha_f lambda_B) / |d|^2).
+/// The mirrored weights of Phi make its divergence the adjoint of the pressure's gradient but for
+/// the skewness. With d_f = dt and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A
+/// the Laplacian of the compact gradients, M of the averaged ones. M is between 0 and 2 A on any
+/// mesh, so no mode grows [Trias14]. The braces compare the averaged gradient of p with the compact
+/// one, and c_f does the same for the elastic normal stress. They vanish for linear fields.
+///
+/// The term in lambda_B is present if the flux strains the solid. An alternating elastic normal
+/// stress then makes a flux whose strain removes 8 d_f dt G lambda_B / |d|^2 of it in a step, which
+/// this term keeps below 1. t_f is dt if c_f = 0. Near a solid it is at most 0.02 |d| / |u_f|,
+/// since the jump at the surface makes a flux error in proportion to t_f. From |c_f| = 0 to 1e-7 of
+/// the stress, t_f goes linearly from dt to that bound.
+///
+/// With a density rho is that of the face, and the force on the cells is replaced by that on the
+/// face (flow/density.hpp). If everything moves with one acceleration, Phi(u*) is right already,
+/// and the sum of this part and the braces is zero. On the boundary the velocity is given, and
+/// openings have the same form with p_b. On return every face of phi is set. u: owned and halo.
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
 
 /// Makes a flux divergence-free: Lap q = div phi*, phi = phi* - grad q . S, u = u* - grad q. q is
-/// dt / rho_0 times the pressure increment. The matrix is constant: one set-up a run. With a
-/// density
+/// dt / rho_0 times the pressure increment. The matrix is constant, with one set-up in a run. With
+/// a density
 ///
-///   div(rho_0 / rho_f grad q) = div phi*,   u = u* - rho_0 grad q / D,
+///   div(rho_0 / rho_f grad q) = div phi*,   u = u* - rho_0 grad q / rhohat.
 ///
-/// by conjugate gradients preconditioned with what the constant matrix was set up for: it needs as
-/// many iterations as rho varies, about the root of the largest over the least times as many.
+/// The preconditioner of the conjugate gradients is that of the constant matrix. So the iterations
+/// grow with the root of the ratio of the largest to the least density.
 class Projection {
  public:
   /// correctors: extra solves for the non-orthogonal part, on meshes that have one.
@@ -81,14 +83,14 @@ class Projection {
   SolveResult project(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q,
                       const BoundaryField<Real>& q_b, Real absolute);
 
-  /// Collective. From now on first projects the cells' own velocities, and the compact gradients
-  /// take what of the divergence that leaves; the pressure gradient is the adjoint
-  /// (orthogonal.hpp). phi* must be what U makes of u* alone. stencil: of the velocity's gradient.
+  /// Collective. From now on first projects the cell velocities. The compact gradients then take
+  /// the rest of the divergence, and the pressure gradient is the adjoint (orthogonal.hpp). phi*
+  /// must be Phi(u*) alone. stencil: of the velocity's gradient.
   void make_orthogonal(const GradientStencil& stencil, const std::vector<Condition>& conditions);
-  /// Whether it does.
+  /// Whether the projection is orthogonal.
   bool orthogonal() const { return orthogonal_.has_value(); }
 
-  /// Collective. Takes that density from now on, until it is renewed. It must outlive this.
+  /// Collective. Uses that density from now on, until the next call. It must outlive this.
   void set_density(const Density& density);
 
   /// Collective. grad p, owned and halo, and at irregular faces (operators/gradient.hpp); p: owned
@@ -97,7 +99,7 @@ class Projection {
                     const BoundaryField<Real>& p_b);
   /// At irregular faces, of the last `set_gradient`; `project` overwrites it.
   const std::vector<Vec3>& face_gradient() const { return grad_f_; }
-  /// Where the pressure is given it counts as a value, elsewhere it is extrapolated to the wall.
+  /// A given pressure counts as a value; on all other patches it is extrapolated to the boundary.
   PressureStencil& stencil() { return stencil_; }
   /// Whether some patch gives the pressure.
   bool open() const { return open_; }
@@ -111,7 +113,7 @@ class Projection {
                          const BoundaryField<Real>& q_b) const;
   void balance_boundary(FaceField<Real>& phi) const;
   void close_balance(FaceField<Real>& phi, CellField<Real>& q) const;
-  /// With it the conductance of the openings.
+  /// Sets the matrix and the conductance of the openings.
   void set(FaceMatrix& matrix);
   /// rho_0 / rho_f; 1 without a density.
   Real mobility(Index f) const {
@@ -136,18 +138,18 @@ class Projection {
   std::optional<CellField<Real>> rest_;  // the potential of what `orthogonal_` leaves
 };
 
-/// phi_f = (rho_0 / rho_f) { U(force) . S + g c_f - (g (p_N - p_P) + k . (grad p)_f) }. This is the
-/// flux that forces and pressure make in a unit of time out of rest, times rho_0. It is 0 where the
-/// velocity is given. terms: p, its gradients, p_b, c_f, density and force are read.
+/// phi_f = (rho_0 / rho_f) { Phi(force) + g c_f - (g (p_N - p_P) + k . (grad p)_f) }: the flux that
+/// forces and pressure make from rest in a unit of time, times rho_0. It is 0 where the velocity is
+/// given. terms: p, its gradients, p_b, c_f, density and force are read.
 void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh);
 
 /// div_c = sum_f phi_f / V of owned cells.
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);
 
-/// p_c -= chi mu_c div u*, mu_c the least theta mu + kappa of the cell's faces: what the implicit
-/// viscous term makes of the correction grad q. chi = 1/2, less in cells of poor shape. div: of the
-/// predicted flux, owned. p: owned and halo.
+/// p_c -= chi mu_c div u*, mu_c the least theta_f mu + kappa of the cell's faces: the effect of the
+/// implicit viscous term on the correction grad q. chi = 1/2, less in cells of poor shape. div: of
+/// the predicted flux, owned. p: owned and halo.
 void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
                           const FaceField<Real>& kappa, const FaceField<Real>& theta,
                           const FaceWeights& weights, const Mesh& mesh);

@@ -40,9 +40,7 @@ Vec3 facet_area(std::span<const Vec3> x, const Polytope::Facet& f) {
   return 0.5 * cross(a, x[f[2]] - x[f[0]]);
 }
 
-/// A cell seen along a direction n: what the volume below a level is made of.
-///   V(s) = (1 / dim) sum over facets of a(s) (x . S - s n . S),  a = part of the facet below s,
-/// Gauss's theorem with the origin moved to a point of the plane, so that the cut adds nothing.
+/// A cell sorted along a direction n: the parts of the volume below a level.
 template <int dim>
 struct Profile {
   struct Item {

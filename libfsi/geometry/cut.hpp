@@ -85,7 +85,8 @@ Real measure(const Polytope& cell);
 Real measure_below(const Polytope& cell, const Plane& plane);
 
 /// The plane of normal n (unit) with the part `fraction` in (0, 1) of the cell below it, to a few
-/// units of round-off. Each side serves alike: n, fraction and -n, 1 - fraction give one plane.
+/// units of round-off. Both sides are equivalent: n, fraction and -n, 1 - fraction give the same
+/// plane.
 Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction);
 
 /// The cut through the cell; its area is zero where the plane misses it.

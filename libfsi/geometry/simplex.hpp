@@ -18,7 +18,7 @@ inline constexpr std::array<std::array<std::size_t, 2>, 3> triangle_edges{{{0, 1
 inline constexpr std::array<std::array<std::size_t, 2>, 6> tetrahedron_edges{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-/// Size of the simplex whatever its orientation: area, volume.
+/// Size of the simplex, positive for both orientations: area, volume.
 inline Real measure(const Triangle& x) { return norm(cross(x[1] - x[0], x[2] - x[0])) / 2; }
 /// The same of a tetrahedron.
 inline Real measure(const Tetrahedron& x) {

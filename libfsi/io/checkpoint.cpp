@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t format = 1;
 
-/// What stands behind the HDF5 file: its length and check, as text. HDF5 does not look there.
+/// The text behind the HDF5 file: its length and check. HDF5 does not read it.
 constexpr std::size_t trailer_size = 96;
 
 std::string trailer(std::uint64_t length, std::uint64_t crc) {
@@ -30,7 +30,7 @@ std::string trailer(std::uint64_t length, std::uint64_t crc) {
   return {text.begin(), text.end()};
 }
 
-/// Whether the file is what was once written: "", or the reason where it is not.
+/// "" if the file is as it was written, else the reason why not.
 std::string damage(const std::string& path) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);

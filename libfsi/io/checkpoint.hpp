@@ -30,8 +30,8 @@ class Snapshot {
     std::string instead;  ///< as `add` has it
   };
 
-  /// identity: what else than the mesh must be the same to go on from a checkpoint (the driver, the
-  /// kind of kinematics); "key=value" items that are compared as one text.
+  /// identity: properties beside the mesh that must be the same to continue from a checkpoint
+  /// (driver, kinematics); "key=value" items that are compared as one text.
   explicit Snapshot(std::string identity = "") : identity_(std::move(identity)) {}
 
   /// instead: what to read where a checkpoint has no field of that name; "": it is refused.
@@ -55,9 +55,9 @@ class Snapshot {
   std::vector<std::pair<std::string, Scalar>> scalars_;
 };
 
-/// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept.
-/// A file is whole or not there: HDF5, and behind it the length and CRC-64 of all before. Values
-/// stand in an order that no division of the mesh changes; every rank writes and reads its stretch.
+/// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept. A
+/// file is whole or not there: HDF5, and behind it the length and CRC-64 of all before. The order
+/// of values does not depend on the division of the mesh; every rank writes and reads its stretch.
 class Checkpoint {
  public:
   /// Collective. Removes what an interrupted write left behind.
@@ -67,8 +67,8 @@ class Checkpoint {
   void clear() const;
 
   /// Collective. Returns whether it was written. A disk that is full or forbids it is no error: a
-  /// warning is printed, the older checkpoints stay and the run may go on. Errors: Error{numerics}
-  /// when a value is not finite; nothing is then written.
+  /// warning is printed, the older checkpoints stay and the run may continue. Errors:
+  /// Error{numerics} when a value is not finite; nothing is then written.
   bool write(const Snapshot& snapshot);
 
   /// Collective. Fills what `snapshot` refers to, bit for bit, from the newest checkpoint that is

@@ -27,8 +27,8 @@ std::string temporary_of(const std::string& path);
 /// Makes a rename in the directory of `path` last. A file system that cannot is left alone.
 void synchronise_directory(const std::string& path);
 
-/// An output directory held by this run. Invariant: no other Lock holds it; the kernel lets it go
-/// when the program ends in whatever way.
+/// An output directory held by this run. Invariant: no other Lock holds it; the kernel releases it
+/// when the program ends in any way.
 class Lock {
  public:
   /// Collective. Errors: Error{input} when another run writes to the directory. A file system

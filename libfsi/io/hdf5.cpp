@@ -19,7 +19,7 @@ static_assert(std::is_same_v<Hdf5Id, std::int64_t> && sizeof(hid_t) == sizeof(Hd
 using Handle = Hdf5Handle;
 using Quiet = Hdf5Quiet;
 
-/// A text of fixed length; HDF5 knows none of length zero.
+/// A text of fixed length; HDF5 has none of length zero.
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   if (type < 0 || H5Tset_size(type, std::max<std::size_t>(1, length)) < 0) return -1;

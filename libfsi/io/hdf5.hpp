@@ -13,7 +13,7 @@
 
 namespace fsi::io {
 
-/// The number HDF5 knows an open thing by.
+/// The number of an open HDF5 object.
 using Hdf5Id = std::int64_t;
 
 /// A file being made, in memory that only what is written takes up. Invariant: once a call fails,
@@ -44,13 +44,13 @@ class Hdf5Image {
                  std::span<const std::int64_t> values);
   /// The same of a text.
   void attribute(const std::string& object, const std::string& name, const std::string& value);
-  /// `path` here stands for the same path in the file named (relative to this one).
+  /// A link: `path` here is the same path in the file named (relative to this one).
   void link(const std::string& path, const std::string& file);
 
-  /// Whether all went well so far.
+  /// Whether all calls succeeded so far.
   bool ok() const { return ok_; }
-  /// Ends the making. Whether all went well; then size() and read() tell of the file, rooms left
-  /// out.
+  /// Ends the making. Returns whether all succeeded; then size() and read() give the file without
+  /// the rooms.
   bool close();
   /// Bytes of the file, once closed.
   std::uint64_t size() const { return size_; }
@@ -76,7 +76,7 @@ class Hdf5Image {
 /// A file opened for reading.
 class Hdf5File {
  public:
-  /// Opens the file; ok() tells whether that went well.
+  /// Opens the file; ok() returns whether that succeeded.
   explicit Hdf5File(const std::string& path);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

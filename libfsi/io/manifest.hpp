@@ -1,5 +1,5 @@
 #pragma once
-// What a run was and how it ended: run.yaml and summary.json; the progress line.
+// The record of a run: run.yaml and summary.json; the progress line.
 
 #include <map>
 #include <string>

@@ -89,7 +89,7 @@ std::string SharedFile::finish(const Hdf5Image* image, Durable durable, const Tr
     descriptor_ = -1;
   }
   if (reason_ != 0 && reason.empty()) reason = std::strerror(reason_);
-  // The lowest rank that has a reason tells it.
+  // The reason of the lowest rank that has one.
   int teller = reason.empty() ? ranks() : rank();
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm());
   if (teller < ranks()) reason = broadcast(reason, teller);

@@ -25,7 +25,7 @@ class SharedFile {
   /// This rank's bytes from `offset` on, which no other call and no other rank writes.
   void write(std::uint64_t offset, Bytes bytes);
 
-  /// What stands behind the HDF5 file, from its length and CRC-64; may be empty.
+  /// The text behind the HDF5 file, from its length and CRC-64; may be empty.
   using Trailer = std::function<std::string(std::uint64_t length, std::uint64_t crc)>;
   /// Collective. Rank 0 adds the rest of its image and puts the file where `path` is. Returns, the
   /// same on every rank, the reason it failed, "" when it did not.

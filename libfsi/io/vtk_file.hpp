@@ -1,5 +1,5 @@
 #pragma once
-// What every VTKHDF file of ours has in common, and one that stands alone.
+// Common parts of all VTKHDF files of this library, and a file that is complete by itself.
 
 #include <span>
 #include <string>

@@ -40,7 +40,7 @@ void fill_cells(const CellList& list, Mesh& mesh) {
   }
 }
 
-/// Internal faces of owned cells, then their boundary faces, each in the order mesh.hpp tells.
+/// Internal faces of owned cells, then their boundary faces, each in the order of mesh.hpp.
 std::pair<std::vector<Face>, std::vector<Face>> faces_of(const CellList& list) {
   const std::vector<Index> mate = match_faces(list);
   const auto& id = list.global_id;

@@ -162,7 +162,8 @@ void check_volumes(RawMesh& raw) {
 }
 
 /// For each corner the ends of its edges, right-handed: their triple product is positive in a sound
-/// cell. Cells with plane sides and straight edges alone are left out: their volume tells.
+/// cell. Cells with only plane sides and straight edges are left out: their volume is a sufficient
+/// check.
 struct Edges {
   CellType type;
   int corner;
@@ -204,7 +205,7 @@ void check_duplicates(const RawMesh& raw) {
     std::ranges::sort(nodes);
     return nodes;
   };
-  // A sum over its nodes tells most cells apart.
+  // A sum over its nodes differs for most cells.
   std::vector<std::pair<std::uint64_t, Index>> sorted(raw.types.size());
   for (Index c = 0; c < raw.n_cells(); ++c) {
     std::uint64_t sum = 0;

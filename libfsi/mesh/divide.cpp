@@ -83,7 +83,7 @@ Columns gathered(const Graph& graph, const Ints& column_of, std::int32_t columns
   return all;
 }
 
-/// How METIS goes about it.
+/// The options of METIS.
 struct Method {
   bool recursive = false;  // bisection, or k-way
   int tries = 1;           // divisions of which the one with the least cut counts

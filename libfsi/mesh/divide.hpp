@@ -1,5 +1,5 @@
 #pragma once
-// Which part takes which cell: METIS on the graph of cells that share a face.
+// The division of cells into parts: METIS on the graph of cells that share a face.
 
 #include <cstdint>
 #include <vector>

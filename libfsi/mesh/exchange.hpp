@@ -1,5 +1,5 @@
 #pragma once
-// Items from every rank to every rank, and where an item with a number lies.
+// Exchange of items between all ranks, and the rank that holds an item.
 
 #include <mpi.h>
 

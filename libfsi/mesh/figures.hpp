@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh is like in a line, and where it goes past what the solver is known to like.
+// The figures of a mesh in one line, and warnings if they are past the limits of the solver.
 
 #include <string>
 #include <vector>
@@ -10,9 +10,9 @@
 namespace fsi {
 
 /// Past these a driver warns and fsi-mesh check advises. The shipped geometries in tets that gmsh
-/// has optimised reach 70 degrees, 1.4, 7 and 6.3; as they come, slivers among them, 86
-/// degrees, 1.8, 400 and 660. The tested flows complete on those too
-/// (doc/verification/tetrahedra.md), but such cells take from accuracy and length of the step.
+/// has optimised reach 70 degrees, 1.4, 7 and 6.3; as they come, slivers among them, 86 degrees,
+/// 1.8, 400 and 660. The tested flows complete on those too (doc/verification/tetrahedra.md), but
+/// such cells reduce accuracy and the length of the step.
 struct MeshLimits {
   /// As in CellQuality, at most.
   Real non_orthogonality = 75, skewness = 2, volume_ratio = 20, aspect_ratio = 25;

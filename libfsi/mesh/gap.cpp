@@ -59,7 +59,7 @@ Real extent(const Mesh& mesh, Index c, const Vec3& along) {
   return high - low;
 }
 
-/// What a line along that direction counts as one cell.
+/// The length that counts as one cell for a line along that direction.
 Real size(const Mesh& mesh, Index c, const Vec3& along) {
   return mesh.simplex(c) ? edge(mesh, c) : extent(mesh, c, along);
 }
@@ -85,7 +85,7 @@ Index cross_cell(const Mesh& mesh, Index c, Ray& ray) {
   return out;
 }
 
-/// What becomes of a line on this rank: it ends (-1 or a patch in `to`), or enters a halo cell.
+/// The end of a line on this rank: it ends (-1 or a patch in `to`), or enters a halo cell.
 enum class Fate { lost, arrived, leaves };
 
 Fate follow(const Mesh& mesh, Index c, const std::vector<char>& chosen, Real best, Ray& ray) {

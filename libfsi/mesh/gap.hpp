@@ -1,5 +1,5 @@
 #pragma once
-// How many cells lie across the narrowest passage of a mesh.
+// The number of cells across the narrowest passage of a mesh.
 
 #include <string>
 #include <vector>

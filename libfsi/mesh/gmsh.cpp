@@ -246,7 +246,7 @@ void Reader::elements_2() {
 
 std::int32_t Reader::physical_of(int dim, std::int32_t entity) const {
   const auto found = physicals_.find({dim, entity});
-  // A minus sign tells the orientation of the entity within its group.
+  // A minus sign gives the orientation of the entity within its group.
   return found == physicals_.end() || found->second.empty() ? 0 : std::abs(found->second.front());
 }
 

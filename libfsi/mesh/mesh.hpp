@@ -1,5 +1,5 @@
 #pragma once
-// The mesh as kernels see it: flat arrays, filled once, never changed.
+// The mesh for the kernels: flat arrays, filled once, never changed.
 
 #include <memory>
 #include <span>
@@ -37,13 +37,13 @@ struct Patch {
 /// One rank's part of the mesh.
 ///
 /// Cells: [0, n_owned) owned, [n_owned, n_cells) halo (all cells that share a vertex with an owned
-/// one). Both parts are sorted by global_id, which does not depend on the number of ranks.
-/// Faces: every face of an owned cell, and no other. [0, n_internal) internal, then the boundary
-/// faces patch by patch. The owner P of an internal face is the cell with the lower global_id, so
+/// one). Both parts are sorted by global_id, which does not depend on the number of ranks. Faces:
+/// every face of an owned cell, and no other. [0, n_internal) internal, then the boundary faces
+/// patch by patch. The owner P of an internal face is the cell with the lower global_id, so
 /// orientation is the same on all ranks; either cell may be a halo cell. Faces are sorted by
-/// (global_id of owner, of neighbour).
-/// Periodic pairs are internal faces; only `d`, `shift` and `translation` know of it.
-/// 2-D: cells are polygons in the plane z = 0, V is an area, faces are edges, |Sf| a length.
+/// (global_id of owner, of neighbour). Periodic pairs are internal faces; only `d`, `shift` and
+/// `translation` show the period. 2-D: cells are polygons in the plane z = 0, V is an area, faces
+/// are edges, |Sf| a length.
 struct Mesh {
   int dim = 3;                                                  ///< 2 or 3
   Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;  ///< counts on this rank, as above
@@ -56,7 +56,7 @@ struct Mesh {
   std::vector<Vec3> Cf;          ///< [n_faces] centroid, in the frame of P
   /// [n_faces] C_N - C_P (image of N next to P); boundary: Cf - C_P
   std::vector<Vec3> d;
-  /// [n_internal] row of `translation`: N is seen from P at C[N] + translation[shift]
+  /// [n_internal] row of `translation`: next to P the centre of N is C[N] + translation[shift]
   std::vector<Index> shift;
   /// [n_faces] corners in order, right-handed about Sf (2-D: the two ends), frame of P
   Csr face_points;
@@ -69,7 +69,8 @@ struct Mesh {
   Csr cell_faces;                      ///< [n_owned] faces of the cell, ascending
   /// [n_owned] cells that share a vertex, itself excluded, sorted by (global_id, shift)
   Csr cell_neighbours;
-  /// beside cell_neighbours.index: that cell is seen at C[n] + translation[shift]
+  /// in the order of cell_neighbours.index: next to this cell, that one is at C[n] +
+  /// translation[shift]
   std::vector<std::int8_t> cell_neighbour_shift;
 
   // points

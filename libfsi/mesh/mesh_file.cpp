@@ -111,7 +111,7 @@ std::vector<std::int32_t> padded(const CellList& whole, std::size_t width) {
   return rows;
 }
 
-/// What a file holds beside the cells and points.
+/// The content of a file apart from cells and points.
 struct Head {
   std::vector<std::int64_t> numbers;  // format, dim, cells, points, hash, corners a row
   std::vector<Real> periods;
@@ -245,7 +245,7 @@ void write_mesh_tables(const std::string& file, const CellList& whole,
 CellList read_mesh_tables(const std::string& file, const std::vector<std::string>& periodic) {
   CellList slab;
   const std::string fault = read(file, periodic, slab);
-  // The lowest rank that has one tells it to all.
+  // The message of the lowest rank that has one, for all ranks.
   int teller = fault.empty() ? ranks() : rank();
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm());
   if (teller == ranks()) return slab;

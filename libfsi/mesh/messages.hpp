@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the sentences in which the mesh complains.
+// Parts of the error messages on meshes.
 
 #include <string>
 #include <vector>

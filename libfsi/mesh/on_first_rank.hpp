@@ -1,5 +1,5 @@
 #pragma once
-// Work that one rank does and whose failure is everybody's.
+// Work of one rank whose failure is an error on all ranks.
 
 #include <mpi.h>
 

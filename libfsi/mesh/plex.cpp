@@ -81,7 +81,7 @@ Share share_of(DM plex, PetscSF origin, const Stretches& cells) {
   return share;
 }
 
-/// What travels with a cell and with a point.
+/// The data that move with a cell and with a point.
 struct CellRecord {
   std::array<Index, max_corners> corner;
   std::array<std::int8_t, max_faces> face_patch;

@@ -21,7 +21,7 @@ void agree(PetscSF directory, std::vector<PetscInt>& values, Index n_roots) {
   FSI_PETSC(PetscSFBcastEnd(directory, MPIU_INT, roots.data(), values.data(), MPI_REPLACE));
 }
 
-/// Tells the plex which of its vertices other ranks own: the highest rank that has one.
+/// Sets which vertices of the plex other ranks own: the highest rank that has one.
 void share_vertices(DM plex, PetscInt n_cells, Index n_vertices,
                     const std::vector<Index>& vertices) {
   const Stretches where = Stretches::even(n_vertices);

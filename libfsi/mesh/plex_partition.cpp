@@ -22,7 +22,7 @@ std::int32_t load_units(Real load) {
   return static_cast<std::int32_t>(std::lround(8 * std::clamp(load, 0.0, 1000.0)));
 }
 
-/// A face as one of its cells tells it to the rank where both meet.
+/// A face as one of its cells sends it to the rank that joins both cells.
 struct Side {
   std::array<Index, max_face_corners> key;  // vertices by number in the file, ascending
   Index cell;                               // number in the file

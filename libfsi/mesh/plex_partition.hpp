@@ -1,5 +1,5 @@
 #pragma once
-// Which rank takes which cell.
+// The division of cells among ranks.
 
 #include <petscsys.h>
 

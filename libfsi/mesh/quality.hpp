@@ -1,5 +1,5 @@
 #pragma once
-// How good the cells of a mesh are, and where they are worst.
+// The quality of the cells of a mesh, and the worst cells.
 
 #include <span>
 #include <string>
@@ -43,7 +43,7 @@ std::vector<Worst> worst(std::span<const Real> values, const Mesh& mesh, std::si
 /// Collective. On every rank the value, 0 or more, of the owned cell of that number.
 Real value_at(std::span<const Real> values, GlobalIndex cell, const Mesh& mesh);
 
-/// What a user should know of a mesh before trusting a run on it.
+/// A summary of the quality of a mesh.
 struct Quality {
   Worst non_orthogonality, skewness, volume_ratio, aspect_ratio;  ///< the worst of each
   Real non_orthogonality_mean = 0;                                ///< over the internal faces

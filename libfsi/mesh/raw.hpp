@@ -1,5 +1,5 @@
 #pragma once
-// A mesh as its file tells it, on one rank.
+// A mesh as it is in its file, on one rank.
 
 #include <array>
 #include <cstdint>

@@ -29,7 +29,7 @@ void gradient_of(CellField<Grad>& grad, const CellField<T>& q, const BoundaryFie
   mesh.halo.update(grad);
 }
 
-/// Of cells whose boundary faces have no value on some.
+/// Sets `closed` of cells with boundary faces without a value.
 void set_closed(GradientStencil& stencil, const Mesh& mesh) {
   constexpr Tensor unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::vector<Index> at(static_cast<std::size_t>(mesh.n_owned), -1);
@@ -54,8 +54,8 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
       owner(static_cast<std::size_t>(mesh.n_faces)),
       neighbour(static_cast<std::size_t>(mesh.n_internal)),
       given(static_cast<std::size_t>(mesh.n_boundary()), 0) {
-  // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d:
-  // the gradient along the normal taken as zero there.
+  // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d: the
+  // gradient along the normal is taken as zero there.
   std::vector<Tensor> M(static_cast<std::size_t>(mesh.n_cells)), fallback(M.size());
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];

@@ -17,9 +17,9 @@ namespace fsi {
 /// Boundary faces take part where the field has a value there; on the other patches the field is
 /// extrapolated linearly from inside.
 struct GradientStencil {
-  /// has_value[i]: whether the field is given on mesh.patches[i]. at_foot[i], none: false, whether
-  /// the value there is not that at the face's centre but that at the foot of the cell's. On a
-  /// plane of symmetry the velocity of the cell along the plane is such a value.
+  /// has_value[i]: whether the field is given on mesh.patches[i]. at_foot[i] (empty: false):
+  /// whether the value belongs to the foot of the cell's centre on the face, not to the centre of
+  /// the face. On a plane of symmetry the velocity of the cell along the plane is such a value.
   GradientStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& has_value,
                   const std::vector<bool>& at_foot = {});
 
@@ -28,8 +28,9 @@ struct GradientStencil {
   std::vector<Vec3> neighbour;  ///< [n_internal] g_Nf
   std::vector<char> given;      ///< [n_boundary] 1 on patches with a value
   std::vector<Index> unfit;     ///< owned cells with too few neighbours for a linear fit
-  /// Owned cells, not triangles or tetrahedra, with faces without a value, and for each of them
-  /// (I - (1/V) sum S (x) d over these)^-1, I where that is singular: a pressure's own gradient.
+  /// Owned cells that are not triangles or tetrahedra and have faces without a value. For each of
+  /// them the inverse of I - (1/V) sum S (x) d over these faces, or I where it is singular. The
+  /// gradient of a pressure needs it.
   std::vector<Index> closed_cells;
   std::vector<Tensor> closed;  ///< as above
 
@@ -41,15 +42,15 @@ struct GradientStencil {
 /// faces, read only where the stencil has weights.
 void gradient(CellField<Vec3>& grad, const CellField<Real>& q, const BoundaryField<Real>& q_b,
               const GradientStencil& stencil, const Mesh& mesh);
-/// The gradient of a pressure, whose force must be one of face values,
-///   grad q_c = (1/V) sum_f (q_f - q_c) S,   q_f = (1 - lambda) q_P + lambda q_N + (grad q)_f .
-///   skew,
-/// S outward, (grad q)_f that of irregular faces. What one cell loses another gets. But for the
-/// skewness it is the adjoint of the flux of lambda u_P + (1 - lambda) u_N, so that a pressure
-/// works on a velocity through the divergence of that alone [Trias14]. Exact for linear fields.
-/// Where the boundary has no value, q_f is q_P + grad q_c . d, in triangles and tetrahedra, whose
-/// own gradient would answer to q_P four times as strongly, q_P + (grad q)_f . d. Owned cells, halo
-/// updated. g_f: of q at the irregular faces, by VertexMean; q: owned and halo.
+/// The gradient of a pressure. Its force must be conservative, a sum of face values:
+///   grad q_c = (1/V) sum_f (q_f - q_c) S,
+///   q_f = (1 - lambda) q_P + lambda q_N + (grad q)_f . skew,
+/// S outward, (grad q)_f that of irregular faces. But for the skewness it is the adjoint of the
+/// flux of lambda u_P + (1 - lambda) u_N, so that a pressure works on a velocity through the
+/// divergence of that flux alone [Trias14]. It is exact for linear fields. On a boundary face
+/// without a value q_f = q_P + grad q_c . d. In triangles and tetrahedra (grad q)_f takes the place
+/// of grad q_c there: with the cell's own gradient q_f would depend on q_P four times as strongly.
+/// Owned cells, halo updated. g_f: of q at the irregular faces, by VertexMean; q: owned and halo.
 void pressure_gradient(CellField<Vec3>& grad, const std::vector<Vec3>& g_f,
                        const CellField<Real>& q, const BoundaryField<Real>& q_b,
                        const GradientStencil& stencil, const Mesh& mesh);

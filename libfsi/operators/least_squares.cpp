@@ -38,7 +38,7 @@ SymTensor inverse_moments(const Mesh& mesh, Index c) {
   SymTensor M;
   for_vertex_neighbours(c, mesh, [&](Index, const Vec3& r) { M += (1 / norm2(r)) * square(r); });
   const bool told = tells(M, mesh.dim, flat);
-  if (mesh.dim == 2) M.zz = 0.5 * trace(M);  // any value: nothing spreads along z
+  if (mesh.dim == 2) M.zz = 0.5 * trace(M);  // any value, since no vector has a part along z
   return told ? inverse(M) : pseudo_inverse(M, flat);
 }
 
@@ -97,7 +97,7 @@ void QuadraticFit::add(const Row& row, const Vec3& rhs, Real w) {
 }
 
 bool QuadraticFit::factorise() {
-  constexpr Real flat = 1e-9;  // part of a diagonal entry that counts as nothing left
+  constexpr Real flat = 1e-9;  // part of a diagonal entry below which the matrix is singular
   for (int i = 0; i < n_; ++i) {
     const Real whole = A_[i][i];
     for (int k = 0; k < i; ++k) A_[i][i] -= A_[k][i] * A_[k][i] * A_[k][k];

@@ -1,11 +1,12 @@
 #pragma once
-// Slopes and quadratics by least squares over the places around a cell.
+// Slopes and quadratics by least-squares fits to values around a cell.
 //
-// The slope g of q at places r makes sum w |g . r - dq|^2 least, w = 1 / |r|^2. It is that of
+// The slope g of q minimises sum w |g . r - dq|^2, w = 1 / |r|^2, for the rises dq over the vectors
+// r. It solves
 //   g . M = R,   M = sum w r (x) r,   R = sum w dq (x) r.
-// Where M does not tell g in all directions the user chooses: leave these out
-// (`for_told_directions`, `pseudo_inverse`), let g tend to zero there (`raised_inverse`), or take
-// no fit (`tells`).
+// If the vectors r do not span all directions, the caller has three choices. It can leave
+// directions out (`for_told_directions`, `pseudo_inverse`), let g tend to zero in them
+// (`raised_inverse`), or make no fit (`tells`).
 
 #include <array>
 #include <optional>
@@ -15,8 +16,8 @@
 
 namespace fsi {
 
-/// Whether M tells a slope in all directions, in two dimensions in the plane: whether det M is more
-/// than the `part` of what it would be if M were alike in all of them.
+/// Whether M determines a slope in all directions, in two dimensions in the plane: whether det M is
+/// more than `part` of the determinant of an isotropic M with the same trace.
 bool tells(const SymTensor& M, int dim, Real part);
 
 /// Calls f(1 / value, vector) for the eigenvectors of M whose value is more than the `part` of the
@@ -31,43 +32,42 @@ void for_told_directions(const SymTensor& M, Real part, Function&& f) {
 /// Inverse of M in these directions, zero in the others.
 SymTensor pseudo_inverse(const SymTensor& M, Real part);
 
-/// Inverse of M, in two dimensions of its in-plane part. Where M does not tell a direction (fewer
-/// places than unknowns) M is raised by a hundredth of its mean eigenvalue: the slope along that
-/// direction tends to zero. M: not zero.
+/// Inverse of M, in two dimensions of its in-plane part. If M does not determine the slope in a
+/// direction (fewer values than unknowns), M is raised by a hundredth of its mean eigenvalue, and
+/// the slope in that direction tends to zero. M: not zero.
 SymTensor raised_inverse(SymTensor M, int dim);
 
-/// The slope of a velocity, by what it is more than a guess.
+/// The slope of a velocity, as a guess and a fitted correction.
 struct SlopeFit {
-  /// guess_: what holds where the places tell nothing.
+  /// guess_: the slope in directions that the fit does not determine.
   explicit SlopeFit(const Tensor& guess_ = {}) : guess(guess_) {}
 
-  /// du at r. Returns its weight w.
+  /// Adds the rise du over r. Returns its weight w.
   Real add(const Vec3& r, const Vec3& du) {
     const Real w = 1 / norm2(r);
     M += w * square(r);
     R += outer(w * (du - dot(guess, r)), r);
     return w;
   }
-  /// du = (L + L_k) / 2 . r, the rule of the middle, where the slope L_k at r is known: exact for a
-  /// quadratic u.
+  /// Adds du = (L + L_k) / 2 . r, the trapezoidal rule with a given slope L_k at r. It is exact for
+  /// a quadratic u.
   Real add_pair(const Vec3& r, const Vec3& du, const Tensor& L_k) {
     return add(r, 2 * du - dot(L_k, r));
   }
-  /// L; in directions that M does not tell, those with `part` of the largest eigenvalue or less,
-  /// the guess.
+  /// L. In directions whose eigenvalue of M is at most `part` of the largest one, L is the guess.
   Tensor slope(Real part) const {
     Tensor L = guess;
     for_told_directions(M, part, [&](Real by, const Vec3& e) { L += outer(by * dot(R, e), e); });
     return L;
   }
 
-  Tensor guess;  ///< as it was made with
+  Tensor guess;  ///< as given
   SymTensor M;   ///< sum of w r r
-  Tensor R;      ///< of what du is more than guess . r
+  Tensor R;      ///< sum of w (du - guess . r) r
 };
 
-/// Inverse of M over the vertex neighbours of owned cell c. On directions in which these do not
-/// spread (a corner cell, a layer one cell thick) it is the pseudo-inverse, so that the slope there
+/// Inverse of M over the vertex neighbours of owned cell c. In directions that these do not span
+/// (in a corner cell, or a layer one cell thick) it is the pseudo-inverse, so that the slope there
 /// is zero.
 SymTensor inverse_moments(const Mesh& mesh, Index c);
 
@@ -77,22 +77,23 @@ Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& me
 /// L_ij = d u_i / d x_j.
 Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c);
 
-/// A quadratic velocity u(x_c + r) = u_c + L . r + (1/2) r . H . r from values u_k and gradients
-/// L_k around the cell:
+/// A quadratic velocity u(x_c + r) = u_c + L . r + (1/2) r . H . r, fitted to values u_k and
+/// gradients L_k around the cell:
 ///   min over L, H of  sum_k w |u_c + L . r + r . H . r / 2 - u_k|^2 + sum_k |L + H . r - L_k|^2,
-/// w = 1 / |r|^2. Exact for a quadratic velocity on any mesh.
+/// w = 1 / |r|^2. It is exact for a quadratic velocity on any mesh.
 class QuadraticFit {
  public:
   /// size: a length of the cell, by which the unknowns are scaled.
   QuadraticFit(int dim, Real size) : dim_(dim), n_(dim == 2 ? 5 : 9), size_(size) {}
 
-  /// u_k - u_c at r.
+  /// Adds the rise du = u_k - u_c over r.
   void add_value(const Vec3& r, const Vec3& du);
-  /// L_k at r.
+  /// Adds the gradient L_k at r.
   void add_gradient(const Vec3& r, const Tensor& L);
-  /// L, or nothing where the fit does not tell it: where independent errors e |r_k| / size of the
-  /// u_k and e / size of the L_k make one of more than sqrt(20) e / size. With five values for five
-  /// unknowns it can be 40, and a viscous flux that takes such an L grows from step to step. Once.
+  /// L, or nothing if the fit amplifies errors too much. Independent errors e |r_k| / size of the
+  /// u_k and e / size of the L_k may cause an error of L of at most sqrt(20) e / size. With five
+  /// values for five unknowns 20 can become 40, and a viscous flux with such an L grows from step
+  /// to step. Call it once.
   std::optional<Tensor> gradient();
 
  private:

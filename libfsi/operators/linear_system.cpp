@@ -27,8 +27,9 @@ struct LinearSystem::Handles {
   std::vector<Index> face;  // of every off-diagonal entry
 
   explicit Handles(const Mesh& m) : mesh(m) {}
-  /// Attaches the null space. PETSc then takes the constant out after each product and sweep, one
-  /// reduction each; our own cycle has its coarsest level pinned and needs that at the end only.
+  /// Attaches the null space. PETSc then takes the constant out after each product and sweep, with
+  /// one reduction each. The cycle of this library has its coarsest level pinned and takes it out
+  /// only at the end.
   void attach(Mat to) const {
     if (constant != nullptr && !cycle) FSI_PETSC(MatSetNullSpace(to, constant));
   }
@@ -58,7 +59,7 @@ struct LinearSystem::Handles {
 
 namespace {
 
-constexpr PetscReal no_absolute = 1e-300;  // that nobody would ask for
+constexpr PetscReal no_absolute = 1e-300;  // a value that no user sets
 
 bool is_given(const std::string& name) {
   PetscBool there = PETSC_FALSE;
@@ -175,7 +176,7 @@ LinearSystem& LinearSystem::operator=(LinearSystem&&) noexcept = default;
 void LinearSystem::assemble(const FaceMatrix& matrix) {
   Handles& h = *handles_;
   h.set(h.matrix, matrix);
-  Mat lean = nullptr;  // a copy leaves behind the map from entries to their places
+  Mat lean = nullptr;  // a copy is without PETSc's table from entries to their places
   FSI_PETSC(MatDuplicate(h.matrix, MAT_COPY_VALUES, &lean));
   FSI_PETSC(MatDestroy(&h.matrix));
   h.matrix = lean;
@@ -207,7 +208,7 @@ SolveResult LinearSystem::solve(CellField<Real>& x, std::span<Real> b, Real abso
   PetscReal rtol = 0, given = 0, divergence = 0;
   PetscInt its = 0, most = 0;
   FSI_PETSC(KSPGetTolerances(h.solver, &rtol, &given, &divergence, &most));
-  if (given != no_absolute) absolute = given;  // the user's word
+  if (given != no_absolute) absolute = given;  // as the user set it
   FSI_PETSC(KSPSetTolerances(h.solver, std::min(loosened * rtol, 0.5),
                              std::max(absolute, no_absolute), divergence, most));
   FSI_PETSC(KSPSolve(h.solver, h.b, h.x));

@@ -27,7 +27,7 @@ enum class Method {
   direct,     ///< Cholesky factors, kept; for a constant matrix of a small 2-D mesh
 };
 
-/// What a solve took.
+/// The figures of a solve.
 struct SolveResult {
   int iterations = 0;  ///< count
   Real residual = 0;   ///< norm at the end, as the solver measures it
@@ -46,18 +46,18 @@ class LinearSystem {
   LinearSystem& operator=(LinearSystem&&) noexcept;
   ///@}
 
-  /// Collective. Sets the values, once for all: what another assembly would need is freed.
+  /// Collective. Sets the values, once: the data for another assembly are freed.
   void assemble(const FaceMatrix& matrix);
-  /// Collective, after `assemble`. Other values from now on; what a solve is preconditioned with
-  /// stays that of `assemble`, which costs iterations as the values of both differ, no set-up.
+  /// Collective, after `assemble`. Sets new values. The preconditioner stays that of `assemble`:
+  /// this needs no set-up, but more iterations as the values differ more.
   void renew(const FaceMatrix& matrix);
   /// Collective. Solves A x = b from the guess in x; on return owned cells and halo are set.
   /// Where the constant is the null space, the mean of b is removed first. Iterates until |r| <=
   /// max(relative |b|, absolute), relative being the tolerance of the options times `loosened`.
   /// Errors: Error{numerics} with the system's name and PETSc's reason when it does not converge.
   SolveResult solve(CellField<Real>& x, std::span<Real> b, Real absolute = 0, Real loosened = 1);
-  /// Collective, after `assemble`. x = what the preconditioner makes of b, the answer of a cycle or
-  /// of the factors; owned and halo. Where the constant is the null space, b must sum to zero.
+  /// Collective, after `assemble`. x = the preconditioner applied to b, one cycle or a solve with
+  /// the factors; owned and halo. If the constant is the null space, b must sum to zero.
   void precondition(CellField<Real>& x, std::span<Real> b);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What lies around a cell and on both sides of a face.
+// The neighbours of a cell and the two sides of a face.
 
 #include <cmath>
 
@@ -8,7 +8,8 @@
 
 namespace fsi {
 
-/// Calls f(k, t) for the cells k that share a vertex with owned cell c, which sees them moved by t.
+/// Calls f(k, t) for the vertex neighbours k of owned cell c. t is the translation that brings k
+/// next to c across a period.
 template <class Function>
 void for_vertex_images(Index c, const Mesh& mesh, Function&& f) {
   const Csr& around = mesh.cell_neighbours;
@@ -16,7 +17,8 @@ void for_vertex_images(Index c, const Mesh& mesh, Function&& f) {
     f(around.index[i], mesh.translation[mesh.cell_neighbour_shift[i]]);
 }
 
-/// Calls f(k, r) for the same cells, r from the centre of c to that of k as c sees it.
+/// Calls f(k, r) for the same cells, r from the centre of c to that of k, across a period if need
+/// be.
 template <class Function>
 void for_vertex_neighbours(Index c, const Mesh& mesh, Function&& f) {
   for_vertex_images(c, mesh, [&](Index k, const Vec3& t) { f(k, mesh.C[k] - mesh.C[c] + t); });
@@ -38,20 +40,20 @@ auto face_mean(const Values& q, Index f, const FaceWeights& weights, const Mesh&
   return (1 - lambda) * q[mesh.owner[f]] + lambda * q[mesh.neighbour[f]];
 }
 
-/// lambda q_P + (1 - lambda) q_N of internal face f: the mean of the flux, in which a cell has the
-/// weight of its own part of the way (flow/projection.hpp).
+/// lambda q_P + (1 - lambda) q_N of internal face f, the mirrored mean of the flux operator
+/// (flow/projection.hpp).
 template <class Values>
 auto mirror_mean(const Values& q, Index f, const FaceWeights& weights, const Mesh& mesh) {
   const Real lambda = weights.lambda[f];
   return lambda * q[mesh.owner[f]] + (1 - lambda) * q[mesh.neighbour[f]];
 }
 
-/// V^(1/dim): the length of a cell.
+/// h = V^(1/dim), the size of a cell.
 inline Real cell_size(const Mesh& mesh, Index c) {
   return mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]);
 }
 
-/// (1 / 2V) sum_f |phi_f| of a cell: its Courant number per time.
+/// (1 / 2V) sum_f |phi_f| of a cell, its Courant number over the time step.
 inline Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
   Real sum = 0;
   for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);

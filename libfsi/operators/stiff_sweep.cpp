@@ -8,8 +8,9 @@
 namespace fsi {
 namespace {
 
-// Of the diagonal. The velocity's matrix beside a soft torus took the least time with 0.3 to 0.5;
-// with less the sweep passes over more cells for few iterations, with 0.8 it saves none.
+// Part of the diagonal from which a cell is stiff. The matrix of the velocity at a soft torus took
+// the least time with 0.3 to 0.5. With less, the sweep has more cells and saves few iterations;
+// with 0.8 it saves none.
 constexpr Real share = 0.4;
 
 /// What the stiff cells couple to, as StiffSweep keeps it.

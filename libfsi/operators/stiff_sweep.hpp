@@ -1,5 +1,5 @@
 #pragma once
-// A preconditioner for a matrix that is far from its diagonal in some of the cells.
+// A preconditioner for a matrix with large couplings in some of the cells.
 
 #include <vector>
 
@@ -7,17 +7,17 @@
 
 namespace fsi {
 
-/// Approximates the inverse of a VectorMatrix with positive diagonal: one symmetric sweep of
-/// Gauss-Seidel over the couplings among the stiff cells of this rank, division by the diagonal
-/// elsewhere. With D, L the diagonal and the lower triangle among stiff cells it is
-/// (D + L^T)^-1 D (D + L)^-1, symmetric and positive definite. Stiff is a cell whose off-diagonal
-/// coefficients exceed in sum a share of its diagonal.
+/// Approximates the inverse of a VectorMatrix with positive diagonal. A cell is stiff if the sum of
+/// its off-diagonal coefficients exceeds a share of its diagonal. Over the couplings among the
+/// stiff cells of this rank it is one symmetric Gauss-Seidel sweep, in other cells a division by
+/// the diagonal. With the diagonal D and the lower triangle L among stiff cells it is
+/// (D + L^T)^-1 D (D + L)^-1, symmetric and positive definite.
 class StiffSweep {
  public:
   /// Of no matrix yet. mesh must outlive it.
   explicit StiffSweep(const Mesh& mesh);
 
-  /// The matrix has new values. Allocates only where more cells are stiff than ever.
+  /// The matrix has new values. Allocates only if more cells are stiff than in all calls before.
   void renew(const VectorMatrix& matrix);
   /// z = M r, dim values an owned cell.
   void apply(Real* z, const Real* r) const;

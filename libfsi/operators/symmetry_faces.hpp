@@ -1,5 +1,5 @@
 #pragma once
-// What a cell at a plane of symmetry sees beyond it.
+// Images of cells beyond planes of symmetry, and of their values.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// The faces of the boundary on planes of symmetry beyond which a field goes on as its image.
+/// The boundary faces on planes of symmetry beyond which the images of cells count as neighbours.
 struct SymmetryFaces {
   std::vector<char> is{};  ///< [n_boundary] 1 for these, else 0; empty: there are none
 
@@ -36,11 +36,11 @@ inline SymTensor image(const SymTensor& T, const Vec3& n) {
           T.yy + 2 * s.y * n.y, T.yz + s.y * n.z + n.y * s.z, T.zz + 2 * s.z * n.z};
 }
 
-/// Calls f(k, r, n) for the images of owned cell c and of those that share a vertex with it, in
-/// each plane of symmetry that c has a face on. n is the normal of the plane, r goes from the
-/// centre of c to that of the image of k. A cell counts as one at the plane when its centre is not
-/// twice as far from it as that of c. Where c is a triangle or tetrahedron it may be up to 3.5
-/// times as far: those that stand on the plane with a corner are up to three times as far as c.
+/// Calls f(k, r, n) for the images of owned cell c and of its vertex neighbours in each plane of
+/// symmetry on which c has a face. n is the normal of the plane, and r leads from the centre of c
+/// to that of the image of k. Only cells next to the plane count: their centre is less than twice
+/// as far from it as that of c. For a triangle or tetrahedron c the factor is 3.5: cells with only
+/// a corner on the plane are up to three times as far away.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
   const Real reach = mesh.simplex(c) ? 3.5 : 2;

@@ -1,5 +1,5 @@
 #pragma once
-// From the gradients in cells to those at faces, by way of the vertices.
+// Gradients at faces, from those in cells by way of the vertices.
 
 #include <cstdint>
 #include <vector>
@@ -11,21 +11,20 @@
 
 namespace fsi {
 
-/// The gradient at irregular faces, beside FaceWeights::irregular. Between quadrilaterals or
-/// hexahedra it is linear between the cells; on other faces the mean over the vertices v of those
-/// over the cells c that touch them,
+/// The gradient at irregular faces, in the order of FaceWeights::irregular. Between quadrilaterals
+/// or hexahedra it is linear between the cells. On all other faces it is the mean over the vertices
+/// v of the face, of means over the cells c that touch v,
 ///
 ///   G_v = sum w_c G_c / sum w_c,   w_c = 1 / sum_f |g_cf|^2,
 ///
-/// g_cf the weights of the cell's gradient, so that w_c is the inverse of the variance that
-/// uncorrelated errors of q give it. A flat cell, or one that a boundary without values leaves with
-/// few neighbours, hardly counts. One with too few for a fit counts where there is no other. Exact
-/// for linear fields. A hexahedron's gradient does not see a
-/// field that alternates from cell to cell. That of a tetrahedron from its four neighbours does, so
-/// much that second-order convection with it grows [Haider09]; two dozen cells about a vertex
-/// hardly do.
+/// with g_cf the weights of the cell's gradient. So w_c is the inverse of the variance that
+/// uncorrelated errors of q cause. A flat cell has little weight, and so has a cell with few
+/// neighbours at a boundary without values. A cell with too few neighbours for a fit counts only if
+/// there is no other. The mean is exact for linear fields.
 ///
-/// Gradient: Vec3 or Tensor.
+/// The gradient of a hexahedron does not respond to a field that alternates from cell to cell. That
+/// of a tetrahedron, from four neighbours, does so strongly, and second-order convection with it
+/// grows [Haider09]. The mean of two dozen cells about a vertex hardly responds.
 template <class Gradient>
 class VertexMean {
  public:
@@ -34,8 +33,8 @@ class VertexMean {
 
   /// g: [irregular faces]. of_cells: owned and halo.
   void set(std::vector<Gradient>& g, const CellField<Gradient>& of_cells);
-  /// The same at the irregular faces of a band alone, of a field that is zero in cells that are not
-  /// listed there.
+  /// The same at the irregular faces of a band alone, of a field that is zero in cells outside the
+  /// band.
   void set(std::vector<Gradient>& g, const CellField<Gradient>& of_cells, const Band& band);
 
  private:
@@ -57,7 +56,7 @@ class VertexMean {
   std::int32_t calls_ = 0;
 };
 
-/// What the gradient of a pressure is made with (operators/gradient.hpp).
+/// The stencils of the gradient of a pressure (operators/gradient.hpp).
 struct PressureStencil {
   /// Collective. given[i]: whether the pressure is given on mesh.patches[i].
   PressureStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& given)

@@ -61,7 +61,7 @@ std::string fluid(const Options& options, const Physics& physics) {
                physics.mu_f / physics.rho);
 }
 
-/// Rank 0. What answers the flow at the openings.
+/// Rank 0. Prints the loads of the openings.
 void tell_of_loads(const Conditions& conditions) {
   for (const auto& [name, condition] : conditions) {
     const auto* opening = std::get_if<Opening>(&condition);
@@ -163,7 +163,8 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   return output;
 }
 
-/// A run that wrote more would never end: its steps stop at every file.
+/// Errors: Error{input} for so short intervals that the run would not end: its steps stop at every
+/// file.
 void check_intervals(const OutputSetup& output, Real end) {
   constexpr Real files = 1e5, rows = 1e8;
   const auto check = [&](const char* name, Real interval, Real most, const char* things) {
@@ -209,7 +210,7 @@ Real solid_share(const Mesh& mesh, const std::vector<SolidSetup>& solids) {
   return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
 }
 
-/// Whether an option tells of the solid's shape and place at the start.
+/// Whether an option sets the solid's shape or place at the start.
 bool of_undeformed_solid(const std::string& name) {
   constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
   return name.starts_with("solid") &&
@@ -225,8 +226,8 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.fluid = fluid(options, result.physics);
   result.flow = read_flow(options);
   result.solids = read_solids(options, result.physics);
-  // What the solid costs is spent in its cells and those its surface cuts; these too are counted
-  // by a margin, as nothing is known of their size here.
+  // The cost of the solid is that of its cells and of those that its surface cuts. A margin stands
+  // for the latter, since their size is not known here.
   constexpr Real margin = 0.1;
   if (!result.solids.empty())
     result.mesh.load = [solids = result.solids](const Vec3& x) {
@@ -335,7 +336,8 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With too few no cell has solid on all sides. In a plane an ellipsoid's third axis is unseen.
+    // With fewer no cell has solid on all sides. In a plane the third axis of an ellipsoid does not
+    // count.
     constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
     const Real through = s.thickness / edges[i];
     if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))
@@ -350,17 +352,17 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
 
 std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (time.step > 0) return {{time.step, "fixed"}};
-  // The solid's way through the flow has a limit of its own under the same name.
+  // The motion of the solid has a limit of its own under the same name.
   const Real carried = solver.body() != nullptr ? solver.carried_dt() : Limit{}.dt;
   std::vector<Limit> all{{std::min(solver.advective_dt(time.courant), carried), "advective"}};
-  // What is given over time may come where the flow is slow and would allow any step.
+  // Values given over time may change while the flow is slow and would allow any step.
   const Real over_time = solver.conditions_dt(time.end);
   all.push_back({over_time < time.end ? over_time : Limit{}.dt, "conditions"});
-  // A load answers a flow that changes over some steps of the pressure.
+  // The pressure of a load follows a change of the flow over some steps.
   constexpr int least_steps = 20;
   all.push_back({time.end / least_steps, "end"});
-  // A start from rest gives no advective limit but what moves at the boundary; a hundredth of the
-  // run is then small enough.
+  // A start from rest has no advective limit but from what moves at the boundary. A hundredth of
+  // the run is small enough then.
   constexpr int steps_of_start = 10;
   if (solver.state().step < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});

@@ -16,7 +16,7 @@ struct TimeSetup {
   Real end = 1, courant = 0.5;  ///< end of the run; Courant number of the flow
   Real step = 0;                ///< fixed step; 0: as large as the limits allow
   Real step_max = 0;            ///< 0: none
-  Real step_first = 0;          ///< the next ones grow by a tenth each; 0: none of that
+  Real step_first = 0;          ///< the next ones grow by a tenth each; 0: no such step
 };
 
 /// What is written, where and how often.
@@ -24,7 +24,7 @@ struct OutputSetup {
   std::string directory;  ///< where the files go
   /// Simulated time between field files, rows and checkpoints; 0: never.
   Real field_interval = 0, sample_interval = 0, checkpoint_interval = 0;
-  bool restart = false;         ///< go on from the checkpoint in the directory
+  bool restart = false;         ///< continue from the checkpoint in the directory
   bool end_when_empty = false;  ///< once the solid has left the mesh
   bool describe_step = false;   ///< print what each call of a step does
   Real wall_seconds_max = 0;    ///< 0: no limit
@@ -37,15 +37,15 @@ struct SolidSetup {
   Real angle = 0;              ///< between that axis and x when placed, in degrees
   std::string shape_name;      ///< as the option has it
   Real thickness = 0;          ///< the least of its dimensions
-  Real centre_z = 0;           ///< which a 2-D run does not know
-  std::string options;         ///< what its options begin with: "solid_" or "solids_NAME_"
+  Real centre_z = 0;           ///< not used in a 2-D run
+  std::string options;         ///< prefix of its options: "solid_" or "solids_NAME_"
 };
 
 /// A case as the user described it.
 struct Case {
   MeshOptions mesh;                ///< file, periods and division among ranks
   Physics physics;                 ///< the fluid's density and viscosity, gravity
-  std::string fluid;               ///< in words, with what is there by default
+  std::string fluid;               ///< in words, defaults included
   FlowSetup flow;                  ///< without conditions
   std::vector<SolidSetup> solids;  ///< in the order of their names
   TimeSetup time;                  ///< end and length of steps
@@ -53,31 +53,32 @@ struct Case {
 };
 
 /// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
-/// NAME with a shape. Errors: Error{input}, also where options of a solid are there and its shape
-/// is not.
+/// NAME with a shape. Errors: Error{input}, also if a solid has options but no shape.
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
-/// What the options of the solids begin with whose shape is given as "none".
+/// Prefixes of the options of solids whose shape is given as "none".
 std::vector<std::string> solids_without_shape(const Options& options);
-/// A solid's shape in the mesh: a plane cuts it through its centre, whatever z that has.
+/// A solid's shape in the mesh: in 2-D the section through its centre, for any z of the centre.
 shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s);
 /// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
 void put_solids(Solver& solver, const Case& setup);
 
-/// Reads and checks the common options. `path`: the way solids travel in this driver's flow, the
+/// Reads and checks the common options. `path`: the path of solids in this driver's flow, the
 /// default of -mesh_divide_along. Errors: Error{input}.
 Case read_case(Options& options, const std::string& driver, const Vec3& path = {});
 
-/// What is simulated, a line "name value" an option: all but those of mesh, time and output.
+/// The options of the simulated case, a line "name value" for each: all but those of mesh, time and
+/// output.
 std::string simulated(const Options& options);
 
-/// A sentence on where this run's `simulated` differs from that of the run it goes on from; ""
-/// where it does not. Errors: Error{input} where it is in the shape or place of a solid.
+/// A sentence on the differences between this run's `simulated` and that of the run that it
+/// continues; "" if there are none. Errors: Error{input} if a difference is in the shape or place
+/// of a solid.
 std::string differences(const std::string& before, const std::string& now);
 
-/// Collective. Prints what the run is about: the mesh and its figures, with a warning where one is
-/// past its limit (mesh/figures.hpp), the fluid, and what loads the openings. Then come the numbers
-/// that follow from the case's length and velocity. Where the velocity is 0 it is not known yet,
-/// and what depends on it is left out.
+/// Collective. Prints a description of the run: the mesh and its figures, with a warning if one is
+/// past its limit (mesh/figures.hpp), the fluid, and the loads of the openings. Then come the
+/// numbers that follow from the case's length and velocity. With a velocity of 0, which means
+/// unknown, they are left out.
 void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity);
 
 /// Collective. Every limit on the time step; a fixed step is the only one.

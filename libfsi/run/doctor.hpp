@@ -1,5 +1,5 @@
 #pragma once
-// fsi-mesh: all that is worth knowing of a mesh before a run, and its other form.
+// fsi-mesh: a report on a mesh before a run, and its other file format.
 
 #include <string>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace fsi {
 
-/// What the solver does about the cells of a mesh, by owned cell. beta and theta are the largest of
-/// the upwind shares beta and of the implicit shares theta_f of its internal faces
-/// (operators/face_weights.hpp). rate is the Courant rate of a flow of speed 1 along the axis that
-/// makes it largest, max_k sum_f |S_f . e_k| / (2 V).
+/// The parameters of the scheme on a mesh, by owned cell. beta and theta are the largest of the
+/// upwind shares beta and of the implicit shares theta_f of its internal faces
+/// (operators/face_weights.hpp). rate is the Courant rate of a flow of speed 1 along the axis for
+/// which it is largest, max_k sum_f |S_f . e_k| / (2 V).
 struct Treatment {
   std::vector<Real> beta, theta, rate;          ///< [n_owned]
   Real beta_mean = 0, theta_mean = 0;           ///< over the internal faces of all ranks
@@ -41,8 +41,8 @@ PatchFigures patch_figures(const Mesh& mesh, const Patch& patch);
 /// -worst_file. Errors: Error{input}.
 RunStatus check_mesh_file(const std::string& file);
 
-/// Collective. fsi-mesh convert: the gmsh file as one that all ranks read side by side. Option:
-/// -mesh_periodic. Errors: Error{input}, Error{io}.
+/// Collective. fsi-mesh convert: writes the gmsh file as one that all ranks read in parallel.
+/// Option: -mesh_periodic. Errors: Error{input}, Error{io}.
 RunStatus convert_mesh_file(const std::string& from, const std::string& to);
 
 }  // namespace fsi

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a case before its first step.
+// Figures of a case before its first step.
 
 #include <string>
 
@@ -18,8 +18,8 @@ struct PeakFlow {
   Real length = 0;    ///< (4 A / pi)^(1/2), in 2-D the patch's length
 };
 
-/// Collective. Of all patches and times up to `end` that of the largest mean * length. Flow rates
-/// are looked at 4000 times, velocities 100 times.
+/// Collective. The flow with the largest mean * length, of all patches and of all times up to
+/// `end`. Flow rates are sampled 4000 times, velocities 100 times.
 PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
 
 /// That flow in a sentence, with its Reynolds number. nu: kinematic viscosity.

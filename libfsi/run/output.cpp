@@ -22,7 +22,7 @@ namespace {
 /// `text` of rank 0 decides for all.
 bool agreed(bool holds) { return broadcast(holds ? "yes" : "") == "yes"; }
 
-/// Rank 0. summary.json, where it can be written; else what it was before.
+/// Rank 0. Writes summary.json; if that fails, the old file stays.
 void put_text(const std::string& directory, const std::string& text) {
   io::replace_file(directory + "/summary.json", {std::as_bytes(std::span(text))}, io::Durable::no);
 }
@@ -81,7 +81,7 @@ Output::~Output() {
   put_text(case_.output.directory, summary("failed"));
 }
 
-/// A file that cannot be written ends the run, but not without a checkpoint and a word.
+/// Calls `write`. A file that cannot be written ends the run, with a checkpoint and a message.
 void Output::saving(const std::function<void()>& write) {
   try {
     write();
@@ -99,8 +99,8 @@ bool Output::saved() const {
   return saved_step_ == solver_.state().step && agreed(std::ifstream(checkpoints_.file()).good());
 }
 
-/// Saves the state, if that is possible and worth it; returns what to say of it. Only where all
-/// ranks fail alike, which errors of these kinds do.
+/// Saves the state, if possible and useful; returns a message on it. Call it only if all ranks fail
+/// alike, which errors of these kinds do.
 std::string Output::rescue(ErrorKind kind) {
   if (kind != ErrorKind::io && kind != ErrorKind::numerics) return "";
   if (solver_.state().step == first_step_) return "";
@@ -108,7 +108,7 @@ std::string Output::rescue(ErrorKind kind) {
     io::make_directory(case_.output.directory);  // it may be what was lost
     if (!saved()) write_checkpoint();
   } catch (const Error&) {
-    // The first error is the one to tell.
+    // The first error is the one that is reported.
   }
   return where();
 }
@@ -182,7 +182,7 @@ void Output::open_tables() {
   }
   if (case_.output.field_interval <= 0) return;
   fields_.emplace(directory, solver_.mesh(), t);
-  // With a restart the fields of its time may be what could not be written.
+  // On a restart the fields of its time may be missing: the last run may not have written them.
   if (field_.due(solver_.state().t) || field_.at(solver_.state().t)) write_fields();
 }
 
@@ -280,8 +280,8 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
 void Output::write_rows(const Limit& limit, Real dt) {
   const State& s = solver_.state();
   const std::vector<Real> times = samples_.due(s.t);
-  // The clock looks two steps ahead, and the next one is hardly longer by half; where it were, it
-  // would end at the row.
+  // The clock looks two steps ahead, and the next one is longer by less than half. If it were
+  // longer, it would end at the row.
   constexpr Real steps_ahead = 3;
   const bool near = samples_.near(s.t, steps_ahead * std::max(dt, limit.dt));
   std::vector<Row> now;
@@ -325,7 +325,7 @@ void Output::write_last_fields() {
   try {
     write_fields();
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerics) throw;  // else the reason of the run's end is told
+    if (error.kind() != ErrorKind::numerics) throw;  // else the first error is reported
   }
 }
 

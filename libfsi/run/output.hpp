@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves behind: tables, fields, checkpoints, summary, progress line.
+// The output of a run: tables, fields, checkpoints, summary, progress line.
 
 #include <functional>
 #include <map>
@@ -24,46 +24,46 @@ namespace fsi {
 
 /// A column of flow.csv that a driver adds.
 struct Column {
-  std::string name;                    ///< none that is there already
+  std::string name;                    ///< not one of flow.csv itself
   std::function<Real(Solver&)> value;  ///< at the state's time; collective, the same on all ranks
-  Course course = Course::smooth;      ///< how it runs between two steps
+  Course course = Course::smooth;      ///< how to interpolate it between two steps
 };
 
 /// Watches a Solver and writes the files of a run. Invariant: from construction on, summary.json
-/// says how the run stands; it reads "failed" until finish().
+/// holds the status of the run; it is "failed" until finish().
 ///
-/// Its files are of the solids that the solver had when it was made. A solid put in later is
-/// refused at the next call. So a run to which solids are added has an Output, with a folder of its
+/// Its files hold the solids that the solver had when it was made. If a solid is put in later, the
+/// next call is refused. So a run to which solids are added has one Output, with a folder of its
 /// own, for each stretch of time between: finish(), `Solver::put_solid`, the next Output. Each
 /// begins at the time of the state, with columns like `turned` and `work` from 0.
 class Output {
  public:
-  /// Collective. Takes the directory for this run and writes run.yaml. A new run removes what an
-  /// earlier one left there under the same names. With -restart the solver's state, the tables and
-  /// the series of fields go on from the newest sound checkpoint, with a notice of the options of
-  /// flow and solid that changed. Errors: Error{io}; Error{input} where another run holds the
-  /// directory, there is nothing to go on from, or it is of another driver or kinematics.
-  /// columns: of flow.csv behind its own, taken at the start and after steps that a row is near.
-  /// Error{input} where the name of one cannot stand in a table (io::Table).
+  /// Collective. Takes the directory for this run and writes run.yaml. A new run removes the files
+  /// that an earlier one left under the same names. With -restart the solver's state, the tables
+  /// and the series of fields continue from the newest sound checkpoint, with a notice of changed
+  /// options of flow and solid. Errors: Error{io}; Error{input} if another run holds the directory,
+  /// there is nothing to continue, or the checkpoint has another driver or kinematics. columns:
+  /// appended to those of flow.csv, evaluated at the start and after steps close to a row.
+  /// Error{input} if the name of one is not allowed in a table (io::Table).
   Output(const Case& setup, const Options& options, Solver& solver, const std::string& driver,
          std::vector<Column> columns = {});
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Collective. Whether the run may go on; false once a step failed for good, wall time is up or
-  /// the end was asked for. Errors: Error{input} where a solid was put in since.
+  /// Collective. Whether the run may continue; false if a step failed for good, wall time is up or
+  /// the end was asked for. Errors: Error{input} if a solid was put in since.
   bool go_on();
   /// Time of the next event that a step must hit.
   Real next_event() const;
-  /// Collective. After every step of length dt, 0 if it failed: writes what is due. Errors: those
-  /// of the files, once a checkpoint is written and summary.json tells them, as far as that can be;
-  /// Error{input} where a solid was put in since.
+  /// Collective. Call after every step of length dt, 0 if it failed: writes what is due. Errors:
+  /// those of the files, after a checkpoint and summary.json are written, as far as possible;
+  /// Error{input} if a solid was put in since.
   void after_step(const Limit& limit, Real dt);
-  /// Collective. Last files; returns how the run ended. Errors: Error{numerics} with the reason
-  /// where the last step failed; a checkpoint of the state before it is there. Error{io} where a
-  /// file, or the checkpoint of an interrupted run, could not be written; Error{input} where a
-  /// solid was put in since.
+  /// Collective. Writes the last files and returns how the run ended. Errors: Error{numerics} with
+  /// the reason if the last step failed; there is a checkpoint of the state before it. Error{io} if
+  /// a file, or the checkpoint of an interrupted run, could not be written; Error{input} if a solid
+  /// was put in since.
   RunStatus finish();
 
  private:
@@ -97,17 +97,17 @@ class Output {
   Watch watch_;
   std::vector<SolidRecord> records_;  // of the bodies
   Samples samples_;
-  std::string samples_text_;  // of what samples_ holds, as a checkpoint has it
+  std::string samples_text_;  // the content of samples_ for a checkpoint
   Schedule field_, checkpoint_;
   std::optional<io::Table> flow_;
-  std::vector<std::optional<io::Table>> solids_;  // of the bodies; none where it had left
+  std::vector<std::optional<io::Table>> solids_;  // of the bodies; none if it had left
   std::optional<io::FieldWriter> fields_;
   Stopwatch stopwatch_;
   Forecast forecast_;
   Real progress_at_ = 0, rows_at_ = 0, divergence_ = 0, fields_at_ = -1;
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1, steps_told_ = 0;
-  std::map<std::string, Real> limits_;  // steps by what set their length
-  std::string message_;                 // why the run ended, where no step failed
+  std::map<std::string, Real> limits_;  // number of steps by the limit that set their length
+  std::string message_;                 // why the run ended, if no step failed
   bool interrupted_ = false, finished_ = false;
 };
 

@@ -43,7 +43,7 @@ class PatchOptions {
   void list() {
     for (const std::string& type : types) read(type);
   }
-  /// What was read, without what it begins with.
+  /// The options that were read, without their prefix.
   const std::vector<std::string>& keys() const { return keys_; }
   /// The table of a velocity that was read; null: none.
   const VelocityTable* table() const { return table_.get(); }
@@ -216,7 +216,7 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
   check(options.names("patches_", ""), "");
 }
 
-/// Errors: Error{input} where a patch is given what its type does not take.
+/// Errors: Error{input} if a patch has an option that its type does not take.
 void check_keys(const Options& options, const Mesh& mesh, const std::string& patch,
                 const std::string& type, const std::vector<std::string>& keys) {
   for (const std::string& text : options.names("patches_", "")) {

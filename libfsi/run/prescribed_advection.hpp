@@ -1,5 +1,5 @@
 #pragma once
-// An interface carried by a known velocity, and the files of such a run.
+// An interface carried by a given velocity, and the files of such a run.
 
 #include <algorithm>
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace fsi {
 
-/// The interface and what moves it.
+/// The interface and its motion.
 class PrescribedAdvection {
  public:
   /// Collective. mesh must outlive it. Errors: Error{input} where the shape is empty or leaves the
@@ -42,7 +42,7 @@ class PrescribedAdvection {
   const CellField<Vec3>& u() const { return u_; }
   /// Collective. sum |alpha - alpha at the start| V: the shape error, after a whole period.
   Real difference() const { return vof::difference(alpha_, start_, mesh_); }
-  /// What the last step left.
+  /// Figures of the last step.
   const vof::AdvectReport& report() const { return report_; }
 
  private:
@@ -73,7 +73,7 @@ class PrescribedAdvectionOutput {
   Real next_event() const { return field_.next(carried_.t()); }
   /// Collective. Writes what is due.
   void after_step();
-  /// Collective. Writes the end of the run and tells how it ended.
+  /// Collective. Writes the last files and returns how the run ended.
   RunStatus finish();
 
  private:

@@ -144,8 +144,7 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
   row.push_back({"bending_prime", ring.bending_prime});
 }
 
-/// Extremes of det grad xi where solid fills half a cell or more: how far the map's own volume
-/// went.
+/// Extremes of J = det grad xi in cells with alpha of at least 1/2: the error of volume of the map.
 void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::ReferenceMap& map,
              const Body& body) {
   Real low = std::numeric_limits<Real>::max(), high = -low;
@@ -213,7 +212,7 @@ Real surface_area(const Body& body) {
 
 Real elastic_energy(const Body& body) {
   CellField<SymTensor> B = B_field(body, body.mesh);
-  // The paper's B loses its determinant: the energy of the shape that it tells.
+  // With left_cauchy_green det B drifts, so the energy is that of B / (det B)^(1/dim).
   if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
     for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
   return body.law.energy(body.G, B, body.alpha, body.mesh);

@@ -18,32 +18,32 @@ std::vector<std::string> names(const std::vector<Entry>& row);
 /// The numbers.
 std::vector<Real> values(const std::vector<Entry>& row);
 
-/// Collective. What a row of flow.csv tells of the flow after a step of length dt.
+/// Collective. A row of flow.csv, for the flow after a step of length dt.
 /// - pressure_drop: between the patches inlet and outlet, S times the period in a periodic channel.
 /// - pressure_span: max p - min p of the cells without solid.
 /// - dissipation: integral 2 mu D : D, mu by the fractions of the cell.
 /// - flow_rate: through the patch `outlet`, or the section of a periodic channel.
 /// - us and dt: as they are.
 /// - limit: what set dt. 0 nothing, 1 -time_step, 2 advective, 3 elastic, 4 start,
-/// 5 -time_step_max, 6 an event to be hit (a file or the end), 7 growing again after a rejected
-/// step, 8 strain of the solid.
+/// 5 -time_step_max, 6 an event to be met (a file or the end), 7 growth after a rejected step,
+/// 8 strain of the solid.
 /// - flow_rate_NAME: out of the domain through each patch NAME that fluid goes through.
-/// - mean_pressure_NAME: of the same patches. At an opening it is what is given there, behind its
-/// load's answer, in the middle of the step. Where the flow is prescribed it is that of the cells
-/// beside the patch.
+/// - mean_pressure_NAME: of the same patches. At an opening it is the given pressure with the part
+/// of its load, in the middle of the step. If the flow is prescribed, it is that of the cells at
+/// the patch.
 /// - reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in 2-D the width) of
 /// the patch where it is largest.
 std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
 
-/// What tells of a solid whether it is to be believed.
+/// Figures by which the result of a solid is judged.
 struct Soundness {
   Real eigenvalue_min = 1;  ///< of B in cells more than half solid
   int pieces = 1;           ///< of a hundredth of its volume or more
-  Real elastic_energy = 0;  ///< as the stress has it
-  Real shape_energy = 0;    ///< of the strain that the map tells
+  Real elastic_energy = 0;  ///< that of the stress
+  Real shape_energy = 0;    ///< that of the strain that the map gives
 };
 
-/// Follows the solid from row to row. What it remembers is part of a checkpoint.
+/// Makes the rows of a solid. Its data from earlier rows are part of a checkpoint.
 class SolidRecord {
  public:
   /// ring: whether the shape is a torus, whose deformation is measured too.
@@ -77,13 +77,13 @@ Real largest_drift(const std::vector<SolidRecord>& records);
 CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
 
 /// Collective. Area (length in 2-D) of a solid's surface in the fluid: that of the planes in its
-/// cells. An isosurface of alpha would round a small body off.
+/// cells. An isosurface of alpha would round a small body.
 Real surface_area(const Body& body);
 
 /// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
 Real elastic_energy(const Body& body);
-/// Collective. That of the strain that the map to the undeformed solid tells; 0
-/// without a map.
+/// Collective. Elastic energy of the strain that the map gives, of the memory or of the map
+/// kinematics; 0 without one.
 Real shape_energy(const Body& body);
 
 }  // namespace fsi

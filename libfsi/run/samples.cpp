@@ -82,7 +82,7 @@ std::string Samples::text() const {
   };
   for (const Row& row : held_) {
     add(static_cast<Real>(row.entries.size())), add(row.t), add(row.t_shape);
-    // What is of the step alone tells of the machine too; it is never taken from here.
+    // Figures of the step alone depend on the machine and are never taken from here.
     for (const Entry& entry : row.entries) add(entry.course == Course::step ? 0 : entry.value);
   }
   return text.empty() ? "none" : text;

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of tables at given times, from those at the ends of the steps around them.
+// Rows of tables at given times, interpolated between the ends of the steps around them.
 
 #include <span>
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace fsi {
 
-/// How a column runs between two rows.
+/// How a column is interpolated between two rows.
 enum class Course {
-  smooth,     ///< linear in the time of the flow; a number of the solid stays half a step behind
-  shape,      ///< linear in that of the solid, which stands half a step off
+  smooth,     ///< linear in the time of the flow; figures of the solid stay half a step behind
+  shape,      ///< linear in the time of the solid, half a step off
   energy,     ///< the same, and never below 0
-  pressure,   ///< smooth, but not known before the first step
-  step,       ///< of the step: the later row's
-  half_turn,  ///< smooth, degrees of a line's direction: the shorter way round
+  pressure,   ///< smooth, but undefined before the first step
+  step,       ///< a figure of the step: that of the later row
+  half_turn,  ///< smooth, degrees of the direction of a line: the shorter way round
 };
 
 /// A number under the name of its column.
 struct Entry {
   std::string name;                ///< of the column
   Real value;                      ///< in this row
-  Course course = Course::smooth;  ///< how it runs from row to row
+  Course course = Course::smooth;  ///< how it is interpolated
 };
 
 /// A row and the times that its columns are of; the first column is t.
@@ -37,9 +37,9 @@ struct Row {
 /// of `before` that is not finite counts as unknown: that of `after` is taken.
 std::vector<Real> between(const Row& before, const Row& after, Real t);
 
-/// Tells when rows are due, at every multiple of an interval (0: at the end of every step), and
-/// makes them without the help of the steps. Invariant: what is held are the rows of the last
-/// state, one a table, or nothing. What it holds is part of a checkpoint.
+/// Gives the times at which rows are due, at every multiple of an interval (0: at the end of every
+/// step), and makes the rows without a change of the steps. Invariant: it holds the rows of the
+/// last state, one for each table, or nothing. These are part of a checkpoint.
 class Samples {
  public:
   /// interval: between rows; 0: a row at the end of every step.
@@ -47,20 +47,20 @@ class Samples {
     every_.resume(0);
   }
 
-  /// The times of rows in the step that ends at t, each told once.
+  /// The times of rows in the step that ends at t, each returned once.
   std::vector<Real> due(Real t);
   /// Whether a row may fall into a next step no longer than `reach`: then hold().
   bool near(Real t, Real reach) const { return each_step_ || every_.next(t) <= t + reach; }
-  /// Time at which the step from t must end for the sake of the rows: none while rows are held.
+  /// Time at which the step from t must end because of the rows; none if rows are held.
   Real next_event(Real t) const;
   /// The row of table `i` at t, a time due in the step that led from the rows held to `now`.
   std::vector<Real> row(std::size_t i, const Row& now, Real t) const;
   /// Holds these rows; none: holds nothing.
   void hold(std::vector<Row> rows) { held_ = std::move(rows); }
 
-  /// For a restart at t with what text() told.
+  /// For a restart at t, with the result of text().
   void resume(Real t, const std::string& text);
-  /// What a checkpoint keeps of it.
+  /// Its data for a checkpoint.
   std::string text() const;
   /// Time of the last row due up to t.
   Real last(Real t) const { return each_step_ ? t : every_.last(t); }

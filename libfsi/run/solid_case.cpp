@@ -158,7 +158,7 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
 }
 
 /// Adds the solid of the options that begin with `of`; none where its shape is "none", whose other
-/// options are checked and left out of what the run tells.
+/// options are checked but not recorded.
 void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::string& of,
                const std::string& name, const Physics& physics) {
   SolidSetup solid;
@@ -183,7 +183,7 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   if (!none) solids.push_back(std::move(solid));
 }
 
-/// Errors: Error{input} where the options tell of a solid without a shape.
+/// Errors: Error{input} if a solid has options but no shape.
 void check_shapes(const Options& options, const std::vector<std::string>& names) {
   std::string list;
   if (names.empty() && !options.given("solid_shape"))

@@ -13,15 +13,15 @@ namespace fsi {
 using ColumnNames = std::vector<std::string>;
 
 /// Collective. The numbers of a csv file, row by row, one for each of `columns`, with a comma, a
-/// semicolon or blanks between them. Empty lines and those that begin with # are left out. Before
-/// the numbers may stand one line of names: then every column must have one of its own, whatever
-/// the case of the letters and what is added in brackets. Errors: Error{input} that names the
-/// file, and the line or column.
+/// semicolon or blanks between them. Empty lines and those that begin with # are left out. One line
+/// of names may come before the numbers. Then every column must have one of its own; upper or lower
+/// case and text in brackets do not matter. Errors: Error{input} that names the file, and the line
+/// or column.
 std::vector<std::vector<Real>> read_rows(const std::string& file,
                                          const std::vector<ColumnNames>& columns);
 
 /// Collective. The second column over the first, which is `t` or `time`; straight lines between the
-/// rows, the first and last value beyond them; period > 0: again and again. value: names of the
+/// rows, the first and last value beyond them; period > 0: repeated with it. value: names of the
 /// second. Errors: Error{input}.
 OfTime series(const std::string& file, Real period = 0, const ColumnNames& value = {});
 

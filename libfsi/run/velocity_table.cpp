@@ -64,7 +64,7 @@ void VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
   }
   Vec3 across;
   for (int i = 0; i < 3; ++i) across[i] = global_max(high[i]) - global_min(low[i]);
-  // A profile along a line, and one table for inlets far apart, are in order.
+  // A profile along a line is valid, and so is one table for inlets far apart.
   constexpr Real beyond = 10, wider = 100;
   const bool far = global_max(farthest) > beyond * extent_;
   const bool one =

@@ -1,5 +1,5 @@
 #pragma once
-// A velocity known at some places.
+// A velocity given at some points.
 
 #include <optional>
 #include <string>
@@ -10,29 +10,30 @@
 
 namespace fsi {
 
-/// The velocity around the places of a table, such as a measured profile. About the place x_k
+/// The velocity around the points of a table, such as a measured profile. About the point x_k
 /// nearest to x it is linear:
 ///
-///   u(x) = u_k + L_k . (x - x_k),
+///   u(x) = u_k + L_k . (x - x_k).
 ///
-/// L_k by least squares over the eight places nearest to x_k, or as many more as it takes to spread
-/// in all directions in which the table does. In the others, across a plane or a line of places,
-/// L_k is zero. Exact for a linear velocity, else of second order in the distance of the places.
+/// L_k is a least-squares fit over the eight points nearest to x_k, or over as many more as are
+/// needed to span all directions that the table spans. In other directions, across a plane or a
+/// line of points, L_k is zero. It is exact for a linear velocity, and of second order in the
+/// distance of the points.
 class VelocityTable {
  public:
-  /// A place and the velocity there.
+  /// A point and the velocity there.
   struct Row {
-    Vec3 x;  ///< place
+    Vec3 x;  ///< point
     Vec3 u;  ///< velocity
   };
 
   /// name: what errors call the table. Errors: Error{input} where it has no row.
   VelocityTable(std::string name, std::vector<Row> rows);
 
-  /// Collective. Errors: Error{input} where the table is that of another patch or in other units.
-  /// So it is where a face lies farther from all places than ten times their extent. So it is, too,
-  /// where all faces are nearest to the same place of a table a hundred times as wide as the patch.
-  /// A table of one place holds everywhere.
+  /// Collective. Errors: Error{input} if the table seems to be that of another patch or in other
+  /// units. That is so if a face lies farther from all points than ten times their extent. It is
+  /// also so if the table is a hundred times as wide as the patch and all faces are nearest to the
+  /// same point. A table of one point holds everywhere.
   void check(const Mesh& mesh, const Patch& patch) const;
 
   /// u(x).
@@ -44,8 +45,8 @@ class VelocityTable {
 
   std::string name_;
   std::vector<Row> rows_;
-  Real extent_ = 0;                                   // the diagonal of the box around the places
-  mutable std::vector<std::optional<Tensor>> slope_;  // [rows], those that were asked for
+  Real extent_ = 0;                                   // the diagonal of the box around the points
+  mutable std::vector<std::optional<Tensor>> slope_;  // [rows], those computed so far
 };
 
 }  // namespace fsi

@@ -17,7 +17,7 @@ void say(const char* kind, const std::string& text) {
   if (rank() == 0) std::fprintf(stderr, "fsi: %s: %s\n", kind, text.c_str());
 }
 
-/// More of the solid than specks that may run ahead of it is out of the mesh.
+/// Whether more of the solid than specks ahead of it is out of the mesh.
 bool leaves(const Body& body) {
   constexpr Real specks = 1e-4;
   return body.volume_out > specks * body.filled.volume;
@@ -131,7 +131,7 @@ void Watch::dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t
 }
 
 void Watch::reynolds(Real number) {
-  constexpr Real turbulent = 4000;  // a straight pipe, at the latest
+  constexpr Real turbulent = 4000;  // in a straight pipe
   if (told_of_turbulence_ || !(number > turbulent)) return;
   told_of_turbulence_ = true;
   say("warning", print("the Reynolds number of the openings is %.3g (column reynolds of flow.csv): "
@@ -193,7 +193,7 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
   constexpr Real apart = 0.5;     // of the larger
   constexpr Real matters = 1e-3;  // of G times the volume
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
-  // What has left tells no shape.
+  // A solid that leaves has no shape to compare with.
   if (body.map() != nullptr && !leaves(body) && !said.forgetful &&
       larger > matters * body.G * body.filled.volume &&
       std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {

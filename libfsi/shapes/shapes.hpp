@@ -9,16 +9,15 @@
 
 namespace fsi::shapes {
 
-/// Distance to the surface, negative inside. What the library asks of one: the sign is right and
-/// |f(a) - f(b)| <= |a - b|. A user's own is a lambda; one that is no distance is divided by a
-/// bound of its gradient.
+/// Distance to the surface, negative inside. It must have the right sign and |f(a) - f(b)| <= |a -
+/// b|. A user may give a lambda; if it is no distance, divide it by a bound of its gradient.
 using Shape = std::function<Real(const Vec3&)>;
 
 /// Larger than any distance.
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-// Each shape below is centred at the origin with its axis of revolution along x. A 2-D run sees the
-// section with the plane z = 0. A sphere is a disc, a torus is a pair of discs, a cylinder is a
+// Each shape below is centred at the origin with its axis of revolution along x. A 2-D run takes
+// the section with the plane z = 0. A sphere is a disc, a torus is a pair of discs, a cylinder is a
 // rectangle. Give `ellipsoid` and `box` an infinite extent along z there. Lengths must be positive
 // (Error{input}), infinite only where it is said.
 
@@ -52,7 +51,7 @@ Shape translate(Shape shape, const Vec3& offset);
 /// right-handed.
 Shape rotate(Shape shape, const Vec3& axis, Real angle);
 
-/// The shape turned the short way so that what pointed along x points along `axis`.
+/// The shape turned by the smallest angle that brings the x axis to `axis`.
 Shape align(Shape shape, const Vec3& axis);
 
 /// The union. The distance is exact outside, a lower bound of its size inside.

@@ -56,7 +56,7 @@ void BalancedJumpForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow
   constexpr Real listed = 0.5;
   if (around_) around_->rebuild(of_rises.listed(), listed);
   const Band& band = around_ ? *around_ : of_rises;
-  mesh_.halo.update(first_);  // all of it: cells beyond the band have a part of the outermost rises
+  mesh_.halo.update(first_);  // whole halo: the outermost rises also add to cells beyond the band
   reached_ = band.faces();
   pressure.at_faces.set(at_faces_, first_, band);
   add_irregular(stencil, band);
@@ -64,8 +64,8 @@ void BalancedJumpForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow
     const Index c = stencil.closed_cells[i];
     if (band.listed()[c] != 0) whole_[c] = dot(stencil.closed[i], whole_[c]);
   }
-  // Cells beyond the band have a part of their faces only, more of them beside other ranks: the
-  // force leaves them out, and so does the balance.
+  // Cells beyond the band have only a part of the sum over their faces, and this part depends on
+  // the ranks. So the force and c_f leave them out.
   for (const Index f : reached_) {
     const Index P = mesh_.owner[f], N = f < mesh_.n_internal ? mesh_.neighbour[f] : P;
     for (const Index c : {P, N})

@@ -7,7 +7,7 @@
 namespace fsi::solid {
 namespace {
 
-/// tau . S on boundary face f; on a plane of symmetry its part along the normal.
+/// tau . S on boundary face f; on a plane of symmetry only its normal part.
 Vec3 traction(const SymTensor& tau, const ElasticState& solid, const Mesh& mesh, Index f) {
   const Vec3 S = mesh.Sf[f], t = dot(tau, S);
   const bool mirror = solid.mirror != nullptr && solid.mirror->has(f, mesh);
@@ -19,9 +19,9 @@ bool is_open(const ElasticState& solid, const Mesh& mesh, Index f) {
   return solid.open != nullptr && (*solid.open)[f - mesh.n_internal] != 0;
 }
 
-/// The way from the centre of P along which T goes on to boundary face f: to the face's centre. On
-/// a plane of symmetry of a triangle or tetrahedron it is the part along the plane, since T . n . n
-/// has no slope across it.
+/// The vector from the centre of P along which T is continued to boundary face f. It leads to the
+/// centre of the face. For a triangle or tetrahedron at a plane of symmetry only its part along the
+/// plane counts, since n . T . n has no slope across the plane.
 Vec3 to_face(const ElasticState& solid, const Mesh& mesh, Index f) {
   const Vec3 d = mesh.d[f];
   if (solid.mirror == nullptr || !solid.mirror->has(f, mesh) || !mesh.simplex(mesh.owner[f]))
@@ -98,11 +98,11 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const SymTensor tau = G_ * dev(T_f);
     const Vec3 m = (*solid.normal)[f], t = dot(tau, S);
     const Real s = dot(m, dot(tau, m)), jump = s * (alpha[N] - alpha[P]);
-    // alpha_f (tau - s I) + alpha_c s I, and the jump that the pressure bears
+    // alpha_f (tau - s I) + alpha_c s I, and the rise [p]_f that the pressure balances
     force[P] += (1 / mesh_.V[P]) * (a_f * t + ((alpha[P] - a_f) * s) * S);
     force[N] -= (1 / mesh_.V[N]) * (a_f * t + ((alpha[N] - a_f) * s) * S);
     jump_force_.add(f, jump, pressure.cells);
-    // what alpha dev T rises between the cells beyond the jump, less the mean of alpha grad dev T
+    // the rise of alpha T between the cells without the jump, less the mean of alpha grad T
     const SymTensor smooth = (lambda * alpha[P] + (1 - lambda) * alpha[N]) * (T[N] - T[P]) -
                              (1 - lambda) * alpha[P] * along(grad[P], d) -
                              lambda * alpha[N] * along(grad[N], d);

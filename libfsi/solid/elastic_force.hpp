@@ -1,5 +1,5 @@
 #pragma once
-// Elastic stress of a solid and the force it puts into the momentum equation.
+// Elastic stress of a solid, and its force in the momentum equation.
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/operators/symmetry_faces.hpp"
@@ -8,40 +8,45 @@
 
 namespace fsi::solid {
 
-/// What the stress is made of.
+/// The fields from which the stress follows.
 struct ElasticState {
-  const CellField<SymTensor>& T;     ///< what the law makes of B (law/law.hpp), neo-Hookean: B; on
-                                     ///< the band's cells, zero elsewhere; owned and halo
-  const CellField<Real>& alpha;      ///< owned and halo
-  const FaceField<Real>* alpha_f{};  ///< part of solid at the band's faces; T is then known around
-                                     ///< the solid as well. None: from alpha T of the cells
-  const FaceField<Vec3>* normal{};   ///< of the interface there, zero without one; with alpha_f
-  const SymmetryFaces* mirror{};     ///< planes of symmetry, which bear no shear
-  const std::vector<char>* open{};   ///< [n_boundary] 1 on openings, which bear no elastic stress
+  const CellField<SymTensor>& T;  ///< what the law makes of B (law/law.hpp), neo-Hookean: B; on
+                                  ///< the band's cells, zero elsewhere; owned and halo
+  const CellField<Real>& alpha;   ///< owned and halo
+  /// Part of solid at the band's faces; T is then set around the solid as well. Null: the stress is
+  /// that of alpha T, linear between the cells.
+  const FaceField<Real>* alpha_f{};
+  const FaceField<Vec3>* normal{};  ///< m of the interface there, zero without one; with alpha_f
+  const SymmetryFaces* mirror{};    ///< planes of symmetry, which have no shear stress
+  const std::vector<char>* open{};  ///< [n_boundary] 1 on openings, which have no elastic stress
 };
 
-/// Force of the elastic stress, and its counterpart in the balanced face flux.
+/// Force of the elastic stress, and its counterpart c_f in the face flux.
 class ElasticForce {
  public:
   /// mesh and weights must outlive it.
   ElasticForce(const Mesh& mesh, const FaceWeights& weights, Real G);
 
   /// Collective. tau = G dev(alpha T)                                     [Matsumiya25] (11)
-  /// force_c = (1/V) sum_f tau_f . S_f, tau_f from alpha T linear between cells, as in the paper.
-  /// With alpha_f, tau_f = G dev T_f is that of T linear between cells. With m the normal and
-  /// s = m . tau_f . m,
-  ///   force_c = (1/V) sum_f (alpha_f (tau_f - s I) + alpha_c s I) . S_f
-  ///             + sum_f g_cf s (alpha_n - alpha_c).
-  /// The part that a jump of the pressure bears is differenced as the pressure is, by the weights
-  /// g_cf of the stencil. The other is differenced as the viscous flux. Skewness correction
-  /// throughout. At boundaries alpha T (with alpha_f: T) continues linearly. At openings there is
-  /// none, so that what has left neither pulls nor pushes; a stress continued there would work on
-  /// what is still inside. Beyond a plane of symmetry the image of a triangle or tetrahedron is one
-  /// of its neighbours (`set_slopes_at_planes`).
-  /// rhie_chow_source_f is (s_N - s_P) - (grad s)_f . d of s = n . tau . n along d; with alpha_f
-  /// that of the cells' alpha times T, and that of the jump of the pressure. It vanishes for a
-  /// linear stress. Both are added to what is there. force: owned and halo after. grad: scratch
-  /// that nothing but the solid writes to, zero at first.
+  /// Without alpha_f the force is that of the paper, with alpha T linear between the cells:
+  ///   force_c = (1/V) sum_f tau_f . S_f.
+  /// With alpha_f, tau_f = G dev(T_f) and T is linear between the cells. Let m be the normal of the
+  /// interface, s = m . tau_f . m and [p]_f = s (alpha_N - alpha_P):
+  ///   force_c = (1/V) sum_f (alpha_f (tau_f - s I) + alpha_c s I) . S_f + calL_c.
+  /// A jump of the pressure balances the normal part s. That part is therefore differenced as the
+  /// pressure is (calL_c, BalancedJumpForce), and the rest as the viscous flux. Both are corrected
+  /// for skewness.
+  ///
+  /// At boundaries T continues linearly from inside, or alpha T without alpha_f. An opening has no
+  /// elastic stress: a stress continued there would work on the solid that is still inside. At a
+  /// plane of symmetry the image of a triangle or tetrahedron counts as its neighbour
+  /// (`set_slopes_at_planes`).
+  ///
+  /// The counterpart c_f is (s_N - s_P) - (grad s)_f . d of s = nu . tau . nu, nu = d / |d|. With
+  /// alpha_f it is that of the cells' alpha times T, and that of the jump of the pressure
+  /// (doc/theory/stress.md). It is zero for a linear stress. Both are added to `force` and
+  /// `rhie_chow_source`. force: owned and halo after. grad: scratch that only the solid writes to,
+  /// zero at first.
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const ElasticState& solid,
              const FaceWeights& weights, PressureStencil& pressure, const Band& band,
              CellField<SymGradient>& grad);
@@ -60,7 +65,7 @@ class ElasticForce {
 
   const Mesh& mesh_;
   Real G_;
-  BalancedJumpForce jump_force_;   // the jump of the normal stress
+  BalancedJumpForce jump_force_;   // of the rises [p]_f
   std::vector<Index> last_cells_;  // where grad was written
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Real near_zone = 1, inner_zone = 2, surrounded_zone = 3;
 
-/// Whether a face of the cell has a known cell behind it.
+/// Whether a face neighbour of the cell has alpha >= alpha_known.
 bool beside_known(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   return std::ranges::any_of(mesh.cell_faces[c], [&](Index f) {
     const Index n = beyond(mesh, f, c);
@@ -19,7 +19,7 @@ bool beside_known(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   });
 }
 
-/// The zone of a known cell.
+/// The value of `zone_` in a known cell.
 Real zone(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
   bool wall = false;
   for (const Index f : mesh.cell_faces[c]) {

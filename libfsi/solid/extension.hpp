@@ -1,5 +1,5 @@
 #pragma once
-// Values of the solid's interior carried outward into the fluid.
+// Extrapolation of a tensor from the known cells of the solid into the fluid around it.
 
 #include <span>
 #include <utility>
@@ -13,52 +13,57 @@
 
 namespace fsi::solid {
 
-/// Cells from this fraction of solid on know their own deformation.
+/// A cell with at least this fraction of solid is a known cell, if a face neighbour has it too.
 inline constexpr Real alpha_known = 0.5;
 
-/// Continues a tensor known inside the solid (alpha >= 1/2) into three rings of cells around it,
-/// ring by ring, from the vertex neighbours k that are set already, w = 1 / |r|^2, r from k:
+/// Extrapolates a tensor from the known cells into three rings of vertex neighbours, one ring after
+/// the other. The sums run over the vertex neighbours k that are known or in a ring before. The
+/// vector r_k leads to k, and w_k = 1 / |r_k|^2:
 ///
-///   linear     T = sum w (T_k + g_k . r) / sum w,   g = sum w g_k / sum w
-///   constant   T = sum w T_k / sum w
+///   linear     T_c = sum_k w_k (T_k - Gamma_k . r_k) / sum_k w_k,
+///              Gamma_c = sum_k w_k Gamma_k / sum_k w_k
+///   constant   T_c = sum_k w_k T_k / sum_k w_k
 ///
-/// g of a known cell is that of least squares over its known vertex neighbours and their images
-/// beyond a plane of symmetry. It counts as far as
-/// the mean m over the surrounded ones among them bears it out, by (g : m) / (g : g) within [0, 1].
-/// A cell with no known one behind any of its faces counts as not known: the strain of such a speck
-/// is told by nothing and would grow without bound. Surrounded: the face neighbours are all known
-/// and no face is of the boundary. Exact for a linear T but where the solid is thin, which goes on
-/// as a constant; what alternates from cell to cell is not extrapolated.
+/// In a known cell Gamma is the slope of T by a least-squares fit over its known vertex neighbours
+/// and their images beyond planes of symmetry. To extrapolate no noise from cell to cell, Gamma is
+/// multiplied by (Gamma : Gammabar) / (Gamma : Gamma), limited to 0 to 1. Gammabar is the mean of
+/// the fitted slopes over those vertex neighbours that are inner cells and have no face on the
+/// boundary. Without such neighbours, as in a thin solid, Gamma = 0 and the extrapolation is
+/// constant. In a thicker solid it is exact for a linear T.
+///
+/// A cell of alpha >= 1/2 without such a face neighbour is not known: nothing would limit its
+/// strain.
 class Extension {
  public:
-  /// symmetry: where known cells go on as their images, R T R. mesh must outlive it.
+  /// symmetry: planes beyond which the images R T R of known cells count as neighbours. mesh must
+  /// outlive it.
   explicit Extension(const Mesh& mesh, SymmetryFaces symmetry = {})
       : mesh_(mesh), symmetry_(std::move(symmetry)), zone_(mesh), rings_(mesh) {}
 
-  /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known, and finds its
-  /// inner cells: those whose face neighbours are all known.
+  /// Collective. Lists the rings around `known`, the band of alpha >= alpha_known. Finds the inner
+  /// cells: known cells whose face neighbours all have alpha >= alpha_known.
   void mark(const CellField<Real>& alpha, const Band& known);
-  /// Collective. Linear. T: set on owned known cells before, in the rings and the halo too after,
-  /// zero where only an earlier call had set it. slope: scratch, zero in owned cells after.
+  /// Collective. Linear. T: set in owned known cells before; after, set in the rings and the halo
+  /// as well. T is set to zero where only an earlier call had set it. slope: scratch, zero in owned
+  /// cells after.
   void linear(CellField<SymTensor>& T, CellField<SymGradient>& slope);
-  /// Collective. Damps what alternates from known cell to known cell in a time dt,
-  ///   T += alternating_part sum w (T_k - T - (g + g_k) / 2 . (x_k - x)) / sum w
-  /// over the known vertex neighbours k and their images, g the least squares. These are fourth
-  /// differences [Jameson81], nothing of a linear T. Works in the cells where `where` is not zero.
-  /// T: of owned known cells; slope: as above; speed, recovery: of a wave of the cells' length,
-  /// where viscosity does not matter and where it rules.
+  /// Collective. Reduces the fourth differences of T in a time dt [Jameson81],
+  ///   T += gamma sum_k w_k (T_k - T - (Gamma + Gamma_k) / 2 . r_k) / sum_k w_k,
+  /// over the known vertex neighbours k and their images. gamma is `alternating_part`, Gamma the
+  /// slope by least squares. A linear T does not change. Works in the known cells where `where` is
+  /// not zero. T: of owned known cells; slope: as above; speed: c_s; recovery: G / mu_s.
   void fourth_difference_filter(CellField<SymTensor>& T, CellField<SymGradient>& slope,
                                 const CellField<Real>& where, Real speed, Real recovery, Real dt);
   /// Collective. Constant, in the cells of the rings where `where` is not zero; no other cell is
-  /// touched. T: set on owned known cells before; where: not zero there, owned and halo.
+  /// changed. T: set in owned known cells before; where: not zero there, owned and halo.
   void constant(CellField<SymTensor>& T, const CellField<Real>& where);
 
   const SymmetryFaces& symmetry() const { return symmetry_; }  ///< as given
   /// Whether cell c is an inner one; owned and halo.
   bool inner(Index c) const { return zone_[c] > 1; }
-  /// Not zero in known cells and rings, those of the last two calls of `mark`; owned and halo.
+  /// Not zero in known cells and rings of the last two calls of `mark`; owned and halo.
   const CellField<Real>& near() const { return zone_; }
-  /// Owned known cells, then those of the rings but for the last.
+  /// Owned known cells, then those of all rings but the last.
   std::span<const Index> inside() const { return rings_.inside(); }
   /// Owned cells of the last ring.
   std::span<const Index> last_ring() const { return rings_.last_ring(); }
@@ -70,9 +75,9 @@ class Extension {
 
   const Mesh& mesh_;
   SymmetryFaces symmetry_;
-  CellField<Real> zone_;  // 1: near, 2: inner, 3: and away from the boundary
+  CellField<Real> zone_;  // 1: near, 2: inner, 3: inner without a boundary face
   Rings rings_;
-  std::vector<Index> known_, alone_, near_;  // alone_: in the band, but taken for unknown
+  std::vector<Index> known_, alone_, near_;  // alone_: alpha >= 1/2, but no known cell
   std::vector<SymGradient> slopes_;
   std::vector<SymTensor> change_;
 };

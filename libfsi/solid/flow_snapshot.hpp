@@ -1,5 +1,5 @@
 #pragma once
-// What every kinematics of the solid is carried and strained by.
+// The flow that carries and strains the solid, as every kinematics reads it.
 
 #include <span>
 
@@ -21,22 +21,23 @@ struct SymGradient {
   friend SymGradient operator*(Real s, const SymGradient& g) { return {s * g.x, s * g.y, s * g.z}; }
   ///@}
 };
-/// That of T along g: the derivative along x is g.x T.
+/// The gradient that is g.x T along x, and so on.
 inline SymGradient outer(const SymTensor& T, const Vec3& g) { return {g.x * T, g.y * T, g.z * T}; }
 /// Change along the vector d.
 inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;
 }
 
-/// The slope of T by least squares over places r at which it is more by `rise`, w = 1 / |r|^2.
+/// The slope Gamma of T by a least-squares fit: T rises by `rise` over the vector r, with the
+/// weight 1 / |r|^2.
 struct TensorFit {
-  /// One place.
+  /// Adds one value.
   void add(const SymTensor& rise, const Vec3& r) {
     const Real w = 1 / norm2(r);
     M += w * square(r);
     R += w * outer(rise, r);
   }
-  /// The slope; none of no places. Along directions that these do not tell it tends to zero
+  /// The slope, zero without values. In directions that the vectors r do not span it tends to zero
   /// (`raised_inverse`).
   SymGradient slope(int dim) const {
     if (M == SymTensor{}) return {};
@@ -49,8 +50,8 @@ struct TensorFit {
   SymGradient R;  ///< sum of w rise r
 };
 
-/// Gradient of T on the listed owned cells. stencil: without given boundary values, so that linear
-/// fields are exact beside boundaries as well.
+/// Gradient of T on the listed owned cells. stencil: without given boundary values, so that the
+/// gradient of a linear field is exact at boundaries too.
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
               const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
 /// The same of alpha T.
@@ -59,19 +60,19 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               std::span<const Index> cells);
 
 /// Sets grad T anew in the listed triangles and tetrahedra at planes of symmetry: by least squares
-/// over the face neighbours and the cell's own image. An extrapolation to the
-/// plane from the others alone answers to the cell's own T several times as strongly.
+/// over the face neighbours and the cell's own image. Without the image, the value extrapolated to
+/// the plane would depend on the cell's own T several times as strongly.
 void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
                           const SymmetryFaces& symmetry, const Mesh& mesh,
                           std::span<const Index> cells);
 
-/// The boundary where the solid touches it.
+/// The boundary faces that the solid touches.
 struct Contact {
   const BoundaryField<Vec3>& u_b;      ///< velocity of the boundary
-  const BoundaryField<char>& touched;  ///< 1 on faces that it touches, openings apart
+  const BoundaryField<char>& touched;  ///< 1 on faces that the solid touches, but for openings
 };
 
-/// How the surface cuts the faces, where the elastic force knows it.
+/// How the surface cuts the faces, for a force that depends on it (alpha_f).
 struct CutFaces {
   const FaceField<Real>& alpha_f;  ///< part of solid between the centres of the two cells
   const FaceField<Vec3>& normal;   ///< of the surface
@@ -88,14 +89,14 @@ struct FlowSnapshot {
   const CellField<Tensor>& L;      ///< velocity gradient
   const GradientStencil& stencil;  ///< without given boundary values
   const FaceWeights& weights;      ///< of the faces
-  /// What strains the solid's cells in its zone; none, and in other cells: L, u and phi do.
+  /// The L that strains the solid in the simplex zone; null: L, u and phi strain it in all cells.
   const InterfaceGradient* one_sided = nullptr;
-  const Contact* contact = nullptr;  ///< none: nowhere
-  const CutFaces* cuts = nullptr;    ///< none: the strain is not bounded by the work of the force
-  Real in_series = 1;   ///< mu_s / mu_f of the surface's traction; 1: of the elastic force alone
-  Real wave_speed = 0;  ///< of shear in the solid at rest, sqrt(G / rho)
-  Real recovery = 0;    ///< rate against the solid's viscosity, G / mu_s
-  /// What remembers the undeformed solid, at the end of the step; none: nothing does.
+  const Contact* contact = nullptr;  ///< null: the solid touches no boundary
+  const CutFaces* cuts = nullptr;    ///< null: L is not bounded by the work
+  Real in_series = 1;                ///< mu_s / mu_f of the traction in series; 1: there is none
+  Real wave_speed = 0;               ///< c_s of shear waves at rest, sqrt(G / rho)
+  Real recovery = 0;  ///< G / mu_s, rate of an elastic recovery that viscosity slows down
+  /// The memory, at the end of the step; null: the solid has none.
   const ReferenceMap* memory = nullptr;
 };
 

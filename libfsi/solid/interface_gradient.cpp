@@ -10,7 +10,7 @@
 namespace fsi::solid {
 namespace {
 
-/// The velocity of one side: without what the kink adds to it in cut cells.
+/// The velocity of one side of the surface: u without the share of the kink in cut cells.
 struct OfOneSide {
   const CellField<Vec3>& u;
   const CellField<Vec3>& kink;
@@ -28,7 +28,7 @@ struct OfWalls {
   }
 };
 
-/// The fit about c over the neighbours n with same(n), with their L where has_L(n).
+/// The fit about c to the u of vertex neighbours n with same(n), and to their L if has_L(n).
 template <class Velocity, class Same, class HasL>
 std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u, const OfWalls& walls,
                           const Same& same, const HasL& has_L, const Mesh& mesh, Index c) {

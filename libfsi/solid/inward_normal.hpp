@@ -1,5 +1,5 @@
 #pragma once
-// The direction of the solid about a cell at its surface.
+// The direction into the solid at a cell of its surface.
 
 #include <cmath>
 
@@ -9,9 +9,10 @@
 
 namespace fsi::solid {
 
-/// Unit vector along sum_k (alpha_k - alpha_c) d_k / |d_k|^2 over the vertex neighbours of cell c:
-/// the normal of the surface, into the solid. Zero where the solid is alike on all sides. symmetry:
-/// faces beyond which the images count as neighbours. alpha: owned and halo.
+/// The unit vector -m into the solid, along
+///   sum_k (alpha_k - alpha_c) r_k / |r_k|^2
+/// over the vertex neighbours k of cell c. It is zero if alpha is symmetric about the cell.
+/// symmetry: faces beyond which the images of cells count as neighbours. alpha: owned and halo.
 inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index c,
                           const SymmetryFaces& symmetry = {}) {
   Vec3 n;

@@ -1,5 +1,5 @@
 #pragma once
-// The limiter of the solid's transport.
+// The limiter Ko of the transport of psi and of the map.
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,11 @@
 
 namespace fsi::solid {
 
-/// Limited half step from the upwind value. With r = 2 slope / step - 1 the upwind over the
-/// downwind difference, slope that of the upwind cell's gradient, it is
-///   max(0, min(2 r, (2 + r) / 3, 2)) step / 2                                       [Koren93]
-/// It is of third order on smooth profiles of a uniform mesh.
+/// Half a step from the upwind value, limited [Koren93]:
+///   Ko(varrho) step / 2,   Ko(varrho) = max(0, min(2 varrho, (2 + varrho) / 3, 2)),
+///   varrho = 2 slope / step - 1, the upwind over the downwind difference.
+/// step: downwind less upwind value. slope: grad . d with the gradient of the upwind cell. On
+/// smooth profiles of a uniform mesh it is of third order.
 inline Real koren(Real step, Real slope) {
   const Real upwind = 2 * slope - step;
   if (upwind * step <= 0) return 0;

@@ -39,7 +39,7 @@ void LeftCauchyGreen::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
     SymTensor sum;
     for (const Index f : mesh_.cell_faces[c]) {
       if (f >= mesh_.n_internal)
-        continue;  // nothing flows in but fluid; what leaves keeps its value
+        continue;  // only fluid flows in; a solid that leaves has the value of its cell
       const Real phi = snapshot.phi[f];
       const Index up = phi >= 0 ? mesh_.owner[f] : mesh_.neighbour[f];
       const SymTensor face = Bt[up] + along(grad[up], mesh_.face_centre(f, up) - mesh_.C[up]);

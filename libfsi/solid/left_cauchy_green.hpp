@@ -11,25 +11,25 @@
 namespace fsi::solid {
 
 /// d Bt/dt + div(u Bt) = L . Bt + Bt . L^T            [Matsumiya25] (10)
-/// with linear-upwind face values and Heun's method over dt, phi and L frozen. Second order in
-/// space; explicit. Works on the cells with alpha >= alpha_min.
+/// Linear-upwind face values, and Heun's method over dt with phi and L frozen. It is explicit and
+/// of second order in space. Works on the cells with alpha >= alpha_min.
 class LeftCauchyGreen {
  public:
   /// mesh must outlive it.
   explicit LeftCauchyGreen(const Mesh& mesh);
 
-  /// Below this fraction of solid Bt is set to zero [Matsumiya25] 2.3: no stress there.
+  /// Below this fraction of solid Bt is zero, and so is the stress [Matsumiya25] 2.3.
   static constexpr Real alpha_min = 0.1;
-  /// Where in a step the solid stands when the momentum equation is solved: at its end.
+  /// The part of the step after which the momentum equation takes the solid: its end.
   static constexpr Real time_offset = 1;
-  /// The longest step in units of the time in which the elastic wave passes a cell.
+  /// The longest step over the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 0.8;
-  /// Whether B is known around the solid as well.
+  /// Whether B is set in cells around the solid as well.
   static constexpr bool extended = false;
 
   /// Bt with B = I where alpha >= alpha_min. Halo set.
   void set_undeformed(const CellField<Real>& alpha);
-  /// Renews what follows from Bt and alpha: after these were changed from outside.
+  /// Sets anew what follows from Bt and alpha, after a change from outside.
   void resume(const CellField<Real>& alpha, CellField<SymGradient>& /*grad*/) { mark(alpha); }
 
   /// Collective. Lists the cells that `transport` works on. alpha: of the end of the step.
@@ -38,7 +38,7 @@ class LeftCauchyGreen {
   std::span<const Index> strain_cells() const { return band_.core(); }
 
   /// Collective, after `mark` with the same alpha. On return Bt is set on owned cells and halo,
-  /// zero where alpha < alpha_min. grad: scratch. The strain is not watched: none is returned.
+  /// zero where alpha < alpha_min. grad: scratch. The strain has no limit here: none is returned.
   Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
@@ -46,8 +46,8 @@ class LeftCauchyGreen {
   void set(Index c, const SymTensor& B, Real alpha) {
     Bt[c] = alpha >= alpha_min ? std::sqrt(alpha) * B : SymTensor{};
   }
-  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the core of
-  /// the band. Returns the smallest eigenvalue of B, which this kinematics does not watch: 1.
+  /// B (zero where alpha < alpha_min) and lambda, its largest eigenvalue, on the core of the band.
+  /// Returns 1, since the smallest eigenvalue of B has no limit here.
   Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
                 const Band& band) const;
   /// B of a cell: Bt / alpha^(1/2), the unit tensor where alpha < alpha_min.
@@ -60,7 +60,7 @@ class LeftCauchyGreen {
 
   const Mesh& mesh_;
   Band band_;
-  std::vector<SymTensor> old_, rate_;  // beside the core of the band
+  std::vector<SymTensor> old_, rate_;  // in the order of the core of the band
 };
 
 }  // namespace fsi::solid

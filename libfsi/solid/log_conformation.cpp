@@ -19,19 +19,19 @@ Real largest(const SymTensor& t) {
                    std::abs(t.zz)});
 }
 
-/// What a face value is corrected by for the skewness s of its face, d from the upwind cell to the
-/// other, g the mean of both cells' gradients:
-///   g . s - b (step - g . d),   step = psi_down - psi_up,   b = |s| / |d|, at most 1/2.
-/// With the upwind cell's gradient in place of g, psi grows where cells are small beside their
-/// neighbours; without the second part, which is of third order, it still does, slowly
-/// (tests/verification/tets/strain_test.cpp).
+/// psi_delta, which corrects a face value for the skewness delta of its face. d leads from the
+/// upwind cell to the other, and g is the mean of both cells' gradients:
+///   g . delta - beta (step - g . d),   beta = |delta| / |d|, at most 1/2.
+/// Here step = psi_down - psi_up. With the upwind cell's gradient in place of g, psi grows where
+/// cells are small compared with their neighbours. Without the second part, which is of third
+/// order, psi still grows slowly (tests/verification/tets/strain_test.cpp).
 SymTensor for_skewness(const SymTensor& step, const SymGradient& up, const SymGradient& down,
                        const Vec3& s, const Vec3& d) {
   const Real b = std::min(0.5, norm(s) / norm(d));
   return 0.5 * (along(up, s + b * d) + along(down, s + b * d)) + (-b) * step;
 }
 
-/// Whether the fit of one side strains cell c.
+/// Whether L of cell c is that of the simplex zone.
 bool by_fit(const FlowSnapshot& snapshot, Index c) {
   return snapshot.one_sided != nullptr && snapshot.one_sided->zone().has(c);
 }
@@ -65,7 +65,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
     const Index b = f - mesh_.n_internal;
     return snapshot.contact && snapshot.contact->touched[b] ? &snapshot.contact->u_b[b] : nullptr;
   };
-  // T goes with log B, here half a step on
+  // For T the bound takes log B, advanced by half a step with the unbounded L.
   const auto bounded = [&](const Tensor& L, Index c) {
     if (snapshot.cuts == nullptr) return L;
     const Tensor excess = excess_of_work(L, snapshot, alpha, extension_, mesh_, c);
@@ -97,9 +97,8 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
   rate_.clear();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Index c = cells[i];
-    // -(1/V) sum_f phi_f (psi_f - psi_c),
-    // psi_f = psi_up + 2 w limited(psi_down - psi_up) + what the skewness s of the face adds,
-    // w the share of |d|
+    //   -(1/V) sum_f phi_f (psi_f - psi_c),
+    //   psi_f = psi_up + lambda_up Ko(varrho) (psi_down - psi_up) + psi_delta,   lambda_up: share
     SymTensor sum;
     for (const Index f : mesh_.cell_faces[c]) {
       if (f >= mesh_.n_internal) continue;
@@ -123,14 +122,14 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
 
 void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_flow = 0.2;
-  constexpr Real by_wave = 0.05;  // waves along the surface grow by up to 0.01 c / h
-  // In the zone the map's B is rougher, and filters damp the waves.
+  constexpr Real by_wave = 0.05;  // waves along the surface grow at a rate of up to 0.01 c_s / h
+  // In the zone the memory's B is rougher, and the filter damps the waves.
   constexpr Real by_flow_in_zone = 0.05, by_wave_in_zone = 0.02;
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
     const bool fit = by_fit(snapshot, c);
-    // At a given velocity the map of the zone is worth less than the strain: it is carried by cells
-    // whose velocity the boundary holds on one side.
+    // Near walls of the zone the memory is less accurate than psi: the cells that carry it have a
+    // given velocity on one side.
     const Real of_wave = !fit ? by_wave : snapshot.one_sided->near_wall(c) ? 0 : by_wave_in_zone;
     const Real rate = (fit ? by_flow_in_zone : by_flow) * courant_rate(snapshot.phi, mesh_, c) +
                       of_wave * snapshot.wave_speed / cell_size(mesh_, c);
@@ -144,8 +143,8 @@ Real LogConformation::advance(const FlowSnapshot& snapshot, Real dt, CellField<S
   old_.clear();
   for (const Index c : core) old_.push_back(psi[c]);
   for (std::size_t i = 0; i < core.size(); ++i) psi[core[i]] += dt * rate_[i];
-  // The cells around follow the solid in this stage too: strained by the fluid's L they would feed
-  // that back through the faces by which the flow enters the solid.
+  // The rings are extrapolated for this stage too. Strained by the fluid's L, they would act back
+  // on the solid through the faces with inflow.
   extension_.linear(psi, grad);
   const Real fastest = rate(snapshot, grad);
   for (std::size_t i = 0; i < core.size(); ++i)
@@ -168,7 +167,7 @@ Strain LogConformation::transport(const CellField<Real>& alpha, const FlowSnapsh
 
 Real LogConformation::update_B(CellField<SymTensor>& B, CellField<Real>& lambda,
                                const CellField<Real>& alpha, const Band& band) {
-  // log B first
+  // B holds log B at first.
   for (const Index c : known_.core()) B[c] = psi[c];
   extension_.constant(B, band.listed());
   Real least = 0;

@@ -11,37 +11,37 @@
 
 namespace fsi::solid {
 
-/// The strain by its logarithm,
+/// The strain, carried as psi = log B:
 ///   d psi/dt + div(u psi) - psi div u = rate of log B             [Fattal04] (19)
-/// on the cells that the solid fills by half or more, in the middle of the step, as the solver has
-/// it. What it does to a speck the extension undoes. Face values are by Koren's limiter. Heun's
-/// method goes over dt, or parts of it (strain.hpp), with phi and L frozen. Then come det B = 1 and
-/// the extension into the cells around. B = exp(psi) is positive definite whatever happens. Second
-/// order in space, and in time: a step takes it from half a step behind the flow to half one ahead.
+/// in the known cells. Face values are limited by Ko (koren.hpp). Heun's method takes psi over dt,
+/// or over parts of it (strain.hpp), with phi and L frozen. Then the trace of psi is removed, so
+/// that det B = 1, and psi is extrapolated around the solid. B = exp(psi) is positive definite for
+/// every psi. The method is of second order in space and time: a step takes psi from t^(n-1/2) to
+/// t^(n+1/2).
 class LogConformation {
  public:
   /// mesh must outlive it.
   explicit LogConformation(const Mesh& mesh, const SymmetryFaces& symmetry = {});
 
-  /// Below this fraction a cell carries no stress: round-off of the interface.
+  /// Below this fraction a cell has no stress: alpha is then rounding of the interface.
   static constexpr Real alpha_min = 1e-9;
-  /// Where in a step the solid stands when the momentum equation is solved.
+  /// The part of the step after which the momentum equation takes the solid.
   static constexpr Real time_offset = 0.5;
-  /// The longest step in units of the time in which the elastic wave passes a cell. Waves along the
-  /// surface grow beyond 2 where 300 mu_s = rho c h, and at 2 the elastic energy of a ring in a
-  /// pipe is a fifth above that of short steps.
+  /// The longest step over the time in which the elastic wave passes a cell. Beyond 2, waves along
+  /// the surface grow if 300 mu_s = rho c_s h. At 2, the elastic energy of a ring in a pipe is a
+  /// fifth above that of short steps.
   static constexpr Real elastic_number = 1.5;
-  /// Whether B is known around the solid as well.
+  /// Whether B is set in cells around the solid as well.
   static constexpr bool extended = true;
 
   /// psi = 0.
   void set_undeformed(const CellField<Real>& alpha);
-  /// Renews what follows from psi and alpha: after psi was changed from outside. Collective. grad:
-  /// scratch.
+  /// Collective. Sets anew what follows from psi and alpha, after a change of psi from outside.
+  /// grad: scratch.
   void resume(const CellField<Real>& alpha, CellField<SymGradient>& grad);
 
-  /// Collective. Lists the cells that `transport` works on. alpha: what tells which cells
-  /// know their strain.
+  /// Collective. Lists the known cells, on which `transport` works. alpha: the fraction that
+  /// decides which cells these are.
   void mark(const CellField<Real>& alpha) {
     known_.rebuild(alpha, alpha_known);
     extension_.mark(alpha, known_);
@@ -52,17 +52,18 @@ class LogConformation {
   const Band& known() const { return known_; }
 
   /// Collective, after `mark` with the same alpha. On return psi is set on owned cells and halo,
-  /// zero far from the solid. grad: scratch. The strain returned is that of the inner cells: what
-  /// is thinner than the mesh sets no step.
+  /// zero far from the solid. grad: scratch. The strain returned is that of the inner cells, so
+  /// thin parts of the solid do not limit the step.
   Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
   /// Sets B, positive definite, of a cell; then `resume`.
   void set(Index c, const SymTensor& B, Real /*alpha*/) { psi[c] = log(B); }
   /// Collective. B and lambda, its largest eigenvalue, on the cells of the band of alpha >=
-  /// alpha_min. Around the known cells log B goes on as a constant: continued linearly, the stress
-  /// of the surface would answer to a strain of a cell by more than its stiffness tells. B: zero in
-  /// other cells. Returns the smallest eigenvalue of B among cells with solid, at most 1.
+  /// alpha_min. Around the known cells log B is extrapolated as a constant: linearly extrapolated,
+  /// the stress at the surface would change by more than the stiffness times the strain of a cell.
+  /// B: zero in other cells. Returns the smallest eigenvalue of B among cells with solid, at most
+  /// 1.
   Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
                 const Band& band);
   /// B of a cell.
@@ -71,30 +72,32 @@ class LogConformation {
   CellField<SymTensor> psi;  ///< log B
 
  private:
-  /// Sets L_: by the fit of one side in its zone, else the velocity gradient without the divergence
-  /// of the cell velocities (solenoidal.hpp). In the solid's outermost cells it is that of its own
-  /// side (one_sided.hpp). By it they take up no more energy over dt than the force takes from the
-  /// flow (work_bound.hpp), but where a traction adds to the force. So do all cells of the zone
-  /// near walls.
+  /// Sets L_. In the simplex zone it is that of InterfaceGradient. In other inner cells it is the
+  /// gradient without the divergence of the cell velocities (solenoidal.hpp). Other outermost cells
+  /// take the one-sided gradient (one_sided.hpp). In outermost cells L is then bounded by the work
+  /// of the force over dt (work_bound.hpp), unless a traction adds to the force. In cells of the
+  /// zone near walls it is always bounded.
   void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt);
-  /// Sets rate_ on known_.core(); returns the largest of log B following the solid.
+  /// Sets rate_ on known_.core(). Returns the largest rate of log B along particles.
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);
-  /// Heun's method over dt from rate_ on known_.core(); returns the rate of its second stage.
+  /// Heun's method over dt from rate_ on known_.core(). Returns the rate of its second stage.
   Real advance(const FlowSnapshot& snapshot, Real dt, CellField<SymGradient>& grad);
-  /// psi <- psi + (1 - exp(-0.2 Co - 0.05 c dt / h)) trust (log B_memory - psi),
-  /// Co the cell's Courant number, c the speed of the elastic wave. psi wears down with the way
-  /// through the mesh, which does not touch the map. Where a stiff body hardly moves through the
-  /// mesh, waves along its surface grow: what the wave passes draws them back. In the zone it is
-  /// 1 - exp(-0.05 Co): the map's B is rougher there, and a filter damps the waves.
+  /// Relaxes psi towards log B_xi, where B_xi is the B of the memory xi:
+  ///   psi <- psi + vartheta (1 - exp(-0.2 Co - 0.05 c_s dt / h)) (log B_xi - psi),
+  /// vartheta = `trust`, Co the Courant number of the cell, c_s = `wave_speed`. The transport
+  /// smears psi with each cell that the flow crosses, but not the memory. If a stiff body hardly
+  /// moves through the mesh, waves along its surface grow, and the term in c_s damps them. In the
+  /// simplex zone the exponent is -0.05 Co - 0.02 c_s dt / h, and near walls there it is -0.05 Co.
+  /// The memory's B is rougher in the zone, and the fourth-difference filter damps the waves.
   void recall(const FlowSnapshot& snapshot, Real dt);
-  /// det B = 1: psi <- psi - (tr psi / 3) I, in plane strain with psi_zz = 0 kept.
+  /// det B = 1: psi <- psi - (tr psi / 3) I; in plane strain psi_zz = 0 and half of tr psi.
   SymTensor isochoric(SymTensor p) const;
 
   const Mesh& mesh_;
   Band known_;
   Extension extension_;
-  std::vector<SymTensor> old_, rate_;  // beside known_.core()
-  std::vector<Tensor> L_;              // beside known_.core()
+  std::vector<SymTensor> old_, rate_;  // in the order of known_.core()
+  std::vector<Tensor> L_;              // in the order of known_.core()
 };
 
 }  // namespace fsi::solid

@@ -6,7 +6,7 @@
 namespace fsi::solid {
 namespace {
 
-/// b(d) = d / (exp(d) - 1), the Bernoulli function.
+/// Be(d) = d / (exp(d) - 1), the Bernoulli function.
 Real bernoulli(Real d) { return d == 0 ? 1 : d / std::expm1(d); }
 
 }  // namespace
@@ -33,7 +33,7 @@ SymTensor log_rate(const Tensor& L, const SymTensor& psi) {
     for (std::size_t j = i + 1; j < 3; ++j) {
       const Vec3& b = e.vector[j];
       const Real d = e.value[j] - e.value[i], up = bernoulli(d);
-      // b(-d) = b(d) + d
+      // Be(-d) = Be(d) + d
       const Real r = (up + d) * dot(a, Le[j]) + up * dot(b, Le[i]);
       rate += r * both_ways(a, b);
     }

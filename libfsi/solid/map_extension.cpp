@@ -23,8 +23,8 @@ Tensor MapExtension::regression(Index c, int up_to_ring) const {
 }
 
 MapExtension::Item MapExtension::fit(Index c, int ring) const {
-  // With W = sum w, m = sum w r / W and e = sum w d / W: d_c = e - g . m and
-  //   g (sum w r (x) r - W m (x) m + n I) = sum w d (x) r - W e (x) m + sum g_k
+  // With W = sum w, m = sum w r / W and e = sum w xihat / W: xihat_c = e - Gamma . m and
+  //   Gamma (sum w r (x) r - W m (x) m + n I) = sum w xihat (x) r - W e (x) m + sum Gamma_k
   Real W = 0;
   Vec3 m, e;
   SymTensor M;

@@ -1,5 +1,5 @@
 #pragma once
-// A reference map carried outward from the solid into the fluid.
+// Extrapolation of a reference map from the solid into the fluid.
 
 #include <utility>
 
@@ -10,15 +10,16 @@
 
 namespace fsi::solid {
 
-/// Continues a vector d linearly into three rings of cells around those that know it, as a map's
-/// gradient must go on unchanged there ([Kamrin12], [Rycroft20]: regression from cells already
-/// set). With r_k = x_k - x_c and w_k = 1 / |r_k|^2 over the vertex neighbours k
-///   known cells     g = arg min sum w_k |d_c + g . r_k - d_k|^2 over known k
-///   rings 1 to 3    (d_c, g) = arg min sum w_k (|d_c + g . r_k - d_k|^2 + |r_k|^2 |g - g_k|^2)
-///                   over the k that are known or of an inner ring
-/// The second term carries the gradient where neighbours on one side alone do not give it. Exact
-/// for linear d on any mesh, periods included: d has none of its own. Beyond a plane of symmetry
-/// lie the images of the cells, with R d_k and R g_k R (symmetry_faces.hpp).
+/// Extrapolates xihat (`d`) linearly from the known cells into three rings of vertex neighbours.
+/// The gradient of a map must not change on the way ([Kamrin12], [Rycroft20]: regression from cells
+/// that are already set). With r_k from the cell's centre to that of its vertex neighbour k, and
+/// w_k = 1 / |r_k|^2:
+///   known cells    Gamma_c = arg min sum_k w_k |xihat_c + Gamma_c . r_k - xihat_k|^2, k known
+///   rings 1 to 3   (xihat_c, Gamma_c) = arg min sum_k w_k (|xihat_c + Gamma_c . r_k - xihat_k|^2
+///                  + |r_k|^2 |Gamma_c - Gamma_k|^2), k known or in a ring before
+/// The second term is needed where neighbours on one side do not determine the gradient. The fit is
+/// exact for a linear xihat on any mesh. xihat is periodic where the mesh is. Beyond a plane of
+/// symmetry the images of cells count, with R xihat_k and R Gamma_k R (symmetry_faces.hpp).
 class MapExtension {
  public:
   /// symmetry: faces beyond which the images of the cells count as neighbours. mesh must outlive
@@ -33,9 +34,9 @@ class MapExtension {
   const SymmetryFaces& symmetry() const { return symmetry_; }  ///< as given
   /// The cells that the last call set.
   const Rings& rings() const { return rings_; }
-  /// Gradient g of the fit in a cell that the last call set.
+  /// Gradient Gamma of the fit in a cell that the last call set.
   const Tensor& slope(Index c) const { return item_[c].g; }
-  /// Gradient by the regression of known cells over all vertex neighbours that are set.
+  /// Gradient by the fit of known cells, over all vertex neighbours that are set.
   Tensor regression(Index c) const { return regression(c, Rings::count); }
 
  private:

@@ -95,9 +95,9 @@ Tensor ReferenceMap::gradient(Index c) const {
     if (n >= 0) {
       sum += outer(d[n] - d[c], weight);
     } else if (symmetry.has(f, mesh_)) {
-      // d - (d . n) n stands at the foot of the centre on the plane, half way to the image. The
-      // weights are those of the face's centre, t aside of it, so sum = grad d . (I - t (x)
-      // weight).
+      // xihat - (xihat . n) n is the value at the foot of the centre on the plane, half way to the
+      // image. The weights are those of the face's centre, which lies off the foot by t. So
+      // sum = grad xihat . (I - t (x) weight).
       const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
       sum += outer(-dot(d[c], normal) * normal, weight);
       aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, weight);
@@ -149,9 +149,12 @@ Tensor ReferenceMap::mean_of_known(const CellField<Tensor>& L, Index c) const {
 
 Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot,
                               Real dt) const {
-  // Within dt particles of the upwind cell pass; the middle one was dt / 2 away:
-  //   d_f = d_up + limited + grad d . skew - dt / 2 (u_f + grad d . u_f)
-  // with u_f linear between the cells and along the skewness, at boundaries from the cell.
+  // The particles that pass the face within dt come from the upwind cell, and their mean path is
+  // that of dt / 2.
+  //   xihat_f = xihat_up + lambda_up Ko(varrho) (xihat_down - xihat_up) + grad xihat_up . skew
+  //             - dt / 2 (I + grad xihat_up) . u_f
+  // Between the cells u_f is linear and corrected for skewness, at boundaries it continues
+  // linearly.
   const auto back = [&](Index up, const Vec3& u) { return (dt / 2) * (u + dot(slope_[up], u)); };
   if (f >= mesh_.n_internal) {
     const Vec3 r = mesh_.Cf[f] - mesh_.C[c];
@@ -173,8 +176,8 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
 }
 
 Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const {
-  // Triangles and tetrahedra know grad xi by a regression, which loses more of the volume. A map
-  // that alone tells B is rather left to it: moved by more, a coarse solid is drawn to a lid.
+  // In triangles and tetrahedra grad xi is a least-squares fit, and more of the volume is lost.
+  // With the map kinematics a larger nu_J would pull a coarse solid towards a moving lid.
   const Real part = beside_psi_ && mesh_.simplex(c) ? 0.12 : 0.06;
   const Real J = volume_ratio(c), h = cell_size(mesh_, c);
   Vec3 grad_J;
@@ -187,9 +190,10 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
   Vec3 way = courant * grad_J;
   if (beside_psi_ && snapshot.wave_speed > 0) {
-    // No stress answers to J. Under a lasting load the normal velocity that the outermost cells
-    // keep changes J without end. In cells with fluid among their vertex neighbours the map moves
-    // along the normal of the surface alone: along the surface the fluxes tell where it is.
+    // B does not depend on J, so no stress resists a change of J. Under a lasting load the normal
+    // velocity of the outermost cells would change J without end. In cells with fluid among their
+    // vertex neighbours only the part of grad J along the normal counts, since the fluxes place the
+    // map along the surface.
     const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry());
     const Vec3 along = n == Vec3{} ? grad_J : dot(grad_J, n) * n;
     way += (dt * snapshot.wave_speed / h) * along;
@@ -210,14 +214,16 @@ Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Re
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core()) {
-    //   d xi/dt = -(1/V) (sum_f phi_f (xi_f - xi_c) - grad xi . off),   xi = x + d,
+    //   d xi/dt = -(1/V) (sum_f phi_f (xi_f - xi_c) - grad xi . o),   xi = x + xihat,   o: off,
     // in the middle of the step, r_f = x_f - x_c. The sum carries xi with (1/V) sum_f phi_f r_f. In
-    // a linear u, off = sum_f ((L . r_f) . S_f) r_f of it is wrong where a cell is not symmetric
-    // about its centre. Beside psi and at the surface, a flux that leads out of the known cells is
-    // that of solid and fluid. There phi_f = (w + L . r_f) . S_f, with w of `velocity_of_fluxes`
-    // and L of the known cells beside c. Along the surface, n its normal, the map moves with w, by
-    // which psi is strained. In a film of a cell at a wall the fluxes alone know what can pass: the
-    // wall holds the cells' velocity on one side, and a map carried by it is held there, too.
+    // a linear u this is wrong by o / V, o = sum_f (L . r_f . S_f) r_f, in cells that are not
+    // symmetric about their centre.
+    //
+    // For the memory, a flux from a known cell to an unknown one mixes solid and fluid. There
+    // phi_f = (utilde + L . r_f) . S_f, with utilde (`w`) of `velocity_of_fluxes` and L of the
+    // known cells beyond the other faces. Along the surface, n its normal, the map then moves with
+    // utilde, which strains psi. Cells at a wall are left out: in a film one cell thick the wall
+    // holds the velocity of the cells, and a map that moves with it would be held too.
     const bool rim = beside_psi_ && in_open_fluid(c);
     const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
     const Tensor L = rim ? mean_of_known(snapshot.L, c) : snapshot.L[c];
@@ -287,7 +293,7 @@ Real ReferenceMap::update_B(CellField<SymTensor>& B, CellField<Real>& lambda,
 }
 
 SymTensor ReferenceMap::B(Index c, Real /*alpha*/) const {
-  // B = (grad xi)^-1 (grad xi)^-T / det^(1/dim) of the same
+  // B = J^(2/dim) (grad xi)^-1 (grad xi)^-T
   const Tensor A = gradient_of_map(c);
   const Real J = det(A);
   if (!(J > 0)) return identity();

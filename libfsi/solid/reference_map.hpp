@@ -1,5 +1,5 @@
 #pragma once
-// Kinematics of the solid: transport of the reference map, where each particle once was.
+// Transport of the reference map xi: the map kinematics of a solid, and the memory.
 
 #include <span>
 #include <utility>
@@ -12,50 +12,54 @@
 
 namespace fsi::solid {
 
-/// The map xi(x, t) tells from where the particle at x came:            [Kamrin12]
-///   d xi/dt + u . grad xi = 0,   F = (grad xi)^-1,   B = F F^T
-/// Stored is d = xi - x, which goes on through a period of the mesh. Works on the cells that the
-/// solid fills by alpha_known or more; the cells around get d by MapExtension. One step over dt
-/// with phi and u frozen: face values by Koren's limiter, taken half a step back along the
-/// particle's path. grad xi is the library's gradient over known and extended cells; B is divided
-/// by (det B)^(1/dim), the error of volume that the map's transport leaves. Of that error J - 1,
-/// J = det grad xi, each step takes some back: the map is moved along grad J,
-///   xi <- xi + k h^2 grad xi . grad J,   k = 0.06 dt (rate of the cell's Courant number),
-/// which lets J diffuse out of the solid, J = 1 around it. Beside psi k is twice that in triangles
-/// and tetrahedra, and the rate of the wave, c / h, adds to that of the flow. The wave's part moves
-/// cells with fluid among their vertex neighbours along the normal of the surface alone. Beside psi
-/// and in the zone of simplices the map loses what alternates from cell to cell, as psi does there
-/// (`Extension::fourth_difference_filter`). Over the known vertex neighbours k and their images,
-///   xi <- xi + alternating_part sum w (xi_k - xi - (g + g_k) / 2 . r) / sum w,
-/// g = grad xi, w = 1 / |r|^2. A velocity that alternates makes no stress that lasts, and would
-/// take the map apart. Nothing else relaxes: what returns to its place is undeformed
-/// again.
+/// The map xi(x, t) is the place that the particle at x had in the undeformed solid:    [Kamrin12]
+///   d xi/dt + u . grad xi = 0,   F = (grad xi)^-1,   J = det grad xi,   B = J^(2/dim) F F^T
+/// The power of J makes det B = 1. Stored is xihat = xi - x (`d`), which is periodic where the mesh
+/// is. A cell carries xihat if alpha >= alpha_known and it had a value before; in this file such a
+/// cell is a known one. The cells around get xihat by MapExtension. A step over dt has phi and u
+/// frozen and face values limited by Ko (koren.hpp), taken half a step back along the path of the
+/// particles.
+///
+/// Volume. Each step lets the error J - 1 diffuse out of the solid, with J = 1 around it,
+///   xi <- xi + nu_J h^2 grad xi . (Co grad J + (c_s dt / h) (grad J)_m),   nu_J = 0.06,
+/// Co the Courant number of the cell. The term in c_s is for the memory alone. In cells with fluid
+/// among their vertex neighbours (grad J)_m is the part along the normal m of the surface, in
+/// others grad J itself. For the memory nu_J is 0.12 in triangles and tetrahedra.
+///
+/// Alternation. In the simplex zone the memory loses the same part gamma of its fourth differences
+/// as psi (`Extension::fourth_difference_filter`). Over the known vertex neighbours k and their
+/// images,
+///   xi <- xi + gamma sum_k w_k (xi_k - xi - (grad xi + grad xi_k) / 2 . r_k) / sum_k w_k,
+/// w_k = 1 / |r_k|^2. A velocity that alternates makes no lasting stress, but would distort the
+/// map.
+///
+/// No other term changes xi, so a solid that returns to its place is undeformed again.
 class ReferenceMap {
  public:
-  /// A map alone tells the strain: carried by the fluxes, and where it folds that is an error.
-  /// Beside psi it is carried along the surface by the velocity that strains psi off the zone of
-  /// simplices, so that both stay alike. A cell in which it has lost its volume is then fitted to
-  /// those around it, as where the solid is new.
+  /// `alone`: the map kinematics. The fluxes carry the map, and a map that folds is an error.
+  /// `beside_psi`: the memory of log_conformation. Off the simplex zone it moves along the surface
+  /// with the velocity that strains psi, so that both stay alike. In a cell where J has changed by
+  /// a factor of two it takes the value that the extension gives.
   enum class Role { alone, beside_psi };
-  /// Collective. walls: the patches that hold the velocity; used beside psi. symmetry: of the
-  /// planes that cut the undeformed solid, beyond which the map goes on as its image. A plane that
-  /// it only comes to later is none of them: what is there came from elsewhere. mesh must outlive
-  /// it.
+  /// Collective. walls: the patches whose velocity is given; used by the memory. symmetry: faces on
+  /// the planes that cut the undeformed solid, beyond which the images of cells count as
+  /// neighbours. A plane that the solid only reaches later is not among them, since what meets
+  /// there came from elsewhere. mesh must outlive it.
   explicit ReferenceMap(const Mesh& mesh, Role role = Role::alone,
                         const std::vector<Patch>& walls = {}, const SymmetryFaces& symmetry = {});
 
-  /// Below this fraction a cell carries no stress: round-off of the interface.
+  /// Below this fraction a cell has no stress: alpha is then rounding of the interface.
   static constexpr Real alpha_min = 1e-9;
-  /// Where in a step the solid stands when the momentum equation is solved.
+  /// The part of the step after which the momentum equation takes the solid.
   static constexpr Real time_offset = 0.5;
-  /// Whether B is known around the solid as well.
+  /// Whether B is set in cells around the solid as well.
   static constexpr bool extended = true;
-  /// The longest step in units of the time in which the elastic wave passes a cell.
+  /// The longest step over the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 1.5;
 
   /// xi = x.
   void set_undeformed(const CellField<Real>& alpha);
-  /// Renews what follows from d and alpha: after these were changed from outside. Collective.
+  /// Collective. Sets anew what follows from d and alpha, after these were changed from outside.
   /// grad: not used.
   void resume(const CellField<Real>& alpha, CellField<SymGradient>& grad);
 
@@ -70,51 +74,52 @@ class ReferenceMap {
   Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
-  /// B alone does not tell a map. Errors: always Error{input}.
+  /// A map does not follow from B. Errors: always Error{input}.
   void set(Index c, const SymTensor& B, Real alpha);
-  /// Sets where the particle at the centre of the cell came from; then `resume`.
+  /// Sets xi at the centre of the cell; then `resume`.
   void set_map(Index c, const Vec3& xi) { d[c] = xi - mesh_.C[c], is_set[c] = 1; }
 
   /// B and lambda, its largest eigenvalue, on the cells of the band. Returns the smallest
   /// eigenvalue of B among those with solid, at most 1.
   Real update_B(CellField<SymTensor>& B, CellField<Real>& lambda, const CellField<Real>& alpha,
                 const Band& band) const;
-  /// B of a cell, det B = 1; the unit tensor where there is no map or the extended one folds.
+  /// B of a cell, det B = 1. The unit tensor where there is no map, or where the extended map
+  /// folds.
   SymTensor B(Index c, Real alpha) const;
-  /// How far the map of a cell is to be relied on: 1 - |log2 det grad xi|, at least 0.
+  /// Trust vartheta in the map of a cell: 1 - |log2 J|, at least 0.
   Real trust(Index c) const;
-  /// grad d, where it is set; owned and halo.
+  /// grad xihat, where it is set; owned and halo.
   const CellField<Tensor>& slope() const { return slope_; }
   /// Owned cells where d is set: the solid's and three rings around them.
   std::span<const Index> cells() const { return extension_.rings().all(); }
-  /// det grad xi of a cell: 1 but for the error of volume.
+  /// J = det grad xi of a cell, which is 1 without an error of volume.
   Real volume_ratio(Index c) const { return det(gradient_of_map(c)); }
 
-  CellField<Vec3> d;       ///< xi - x
+  CellField<Vec3> d;       ///< xihat = xi - x
   CellField<Real> is_set;  ///< 1 where d is set, else 0
 
  private:
   Tensor gradient_of_map(Index c) const;
-  /// Whether face f leads from known cell c to one that does not know its map.
+  /// Whether face f leads from known cell c to a cell that is not known.
   bool leaves_known(Index f, Index c) const;
-  /// Whether known cell c has fluid beside it, and no wall at it or at the cells of that fluid.
+  /// Whether known cell c has an unknown cell beyond a face, and neither c nor such a cell has a
+  /// face on a wall.
   bool in_open_fluid(Index c) const;
-  /// Mean of L over the known cells beyond the faces of c: the solid's, while L of c has the kink
-  /// of u at the surface; L of c where there are none.
+  /// Mean of L over the known cells beyond the faces of c; L of c if there are none. It is the
+  /// solid's L, while that of c itself has the kink of u at the surface.
   Tensor mean_of_known(const CellField<Tensor>& L, Index c) const;
-  /// The upwind value of d at face f half a step back along the particle's path; out: the flow
-  /// there leaves cell c.
+  /// The upwind value of xihat at face f, half a step back along the path of the particles. out:
+  /// whether the flow leaves cell c there.
   Vec3 face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
-  /// What the error of volume moves the map by in dt.
+  /// The change of the map by the diffusion of J - 1 in dt.
   Vec3 towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const;
-  /// What the filter moves the map by in dt.
+  /// The change of the map by the fourth-difference filter in dt.
   Vec3 without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const;
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;
-  /// Collective. Gives the cells that are not to be relied on the value that the extension would
-  /// give them.
+  /// Collective. Cells with a trust of 0 get the value that the extension gives.
   void refit();
 
   const Mesh& mesh_;
@@ -123,9 +128,9 @@ class ReferenceMap {
   GradientStencil stencil_;
   Band known_;
   MapExtension extension_;
-  CellField<Real> filled_;                    // alpha where d is set
-  CellField<Tensor> slope_;                   // grad d
-  std::vector<Vec3> new_;                     // beside the list of cells worked on
+  CellField<Real> filled_;                    // alpha where xihat is set
+  CellField<Tensor> slope_;                   // grad xihat
+  std::vector<Vec3> new_;                     // in the order of the known cells
   std::vector<std::pair<Index, Real>> kept_;  // cells to refit and their alpha
 };
 

@@ -10,8 +10,8 @@
 
 namespace fsi::solid {
 
-/// Known cells and three rings around them, each of the cells that share a vertex with one of those
-/// before.
+/// Known cells and three rings around them. A ring is the set of vertex neighbours of the cells
+/// before it.
 class Rings {
  public:
   static constexpr int count = 3;  ///< of rings
@@ -33,13 +33,13 @@ class Rings {
     const std::size_t begin = i == 0 ? 0 : end_[i - 1];
     return all().subspan(begin, end_[i] - begin);
   }
-  /// Of the known cells and all rings.
+  /// Owned cells: the known ones and all rings.
   std::span<const Index> all() const { return cells_; }
-  /// The same but for the last ring.
+  /// The same without the last ring.
   std::span<const Index> inside() const { return all().first(end_[count - 1]); }
-  /// Of the last ring.
+  /// Owned cells of the last ring.
   std::span<const Index> last_ring() const { return ring(count); }
-  /// All those of the call before.
+  /// `all` of the call before the last.
   std::span<const Index> before() const { return before_; }
 
  private:

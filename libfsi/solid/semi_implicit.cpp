@@ -18,9 +18,9 @@ Real part_along(const Vec3& m, const Vec3& d) {
   return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
 }
 
-/// Weight of L_N in the mean of L on the way between the cells of face f. u_N - u_P = (L_P + L_N) /
-/// 2 . d, the rule of the middle, is of third order; across the kink at the surface a part alpha_f
-/// of the way is the solid's.
+/// Weight of L_N in the mean of L over the line between the cells of face f. The trapezoidal rule
+/// u_N - u_P = (L_P + L_N) / 2 . d is of third order. Across the kink at the surface the part
+/// alpha_f of the line is the solid's.
 Real part_of_N(const ElasticTerms& solid, const FaceWeights& weights, const Mesh& mesh, Index f) {
   if (!solid.kink) return weights.lambda[f];
   const bool P_in = solid.fraction[mesh.owner[f]] >= alpha_known;
@@ -62,7 +62,7 @@ void SemiImplicitElasticity::clear(FaceField<Real>& kappa) {
 void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& force,
                                    const ElasticTerms& solid, const FaceWeights& weights,
                                    const Band& band) {
-  constexpr Real explicit_part = 1.5;  // of kappa + m: stable so
+  constexpr Real explicit_part = 1.5;  // of kappa + mu_rho, for stability
   const CellField<Real>& lambda = solid.lambda;
   last_faces_ = band.faces();
   for (const Index f : band.faces()) {
@@ -74,11 +74,11 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     kappa[f] += k;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];
-    if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band, where L is not known
+    if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band L is not set
     const Real d = norm(mesh_.d[f]);
     Real e = d * std::sqrt(solid.rho * solid.G * l);
     const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
-    // less mu_s, as the solid's own compact viscous term does its part
+    // less alpha_f mu_s, since the compact viscous term of the solid damps too
     const bool in_zone = zone_.has(P) || zone_.has(N), one_sided = in_zone && solid.one_sided;
     if (one_sided) {
       e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
@@ -90,8 +90,8 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
       if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
       e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
     }
-    // e g (u_N - u_P - L_f . d), of one side only where it takes energy from u_N - u_P - W . d, W
-    // the spin
+    // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N
+    // - u_P - W . d is negative, W the spin of L_f.
     const Real w = part_of_N(solid, weights, mesh_, f);
     const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
     const Vec3 rise = solid.u[N] - solid.u[P];

@@ -1,5 +1,5 @@
 #pragma once
-// How stiff the solid is to a step, and what makes a step larger than that stable.
+// The elastic limit of a step, and two terms that allow steps beyond it.
 
 #include <span>
 
@@ -10,67 +10,69 @@
 
 namespace fsi::solid {
 
-/// Time in which the elastic shear wave passes a cell: the least h (rho / (G lambda))^(1/2) over
-/// the cells, h = V / max |Sf|, lambda at least 1. [Matsumiya25] (15) This rank's cells only.
+/// Time in which the elastic shear wave passes a cell: the least h_w (rho / (G lambda_B))^(1/2)
+/// over the cells, with the width h_w = V / max |Sf| and lambda_B of at least 1 [Matsumiya25] (15).
+/// This rank's cells only.
 Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
                   std::span<const Index> cells);
 
 /// What a face operator on the solid reads.
 struct ElasticTerms {
-  const CellField<Real>& lambda;    ///< largest modulus of the law over G, neo-Hookean: eigenvalue
-                                    ///< of B; on the band's cells and halo
-  const FaceField<Real>& alpha;     ///< part of solid at the band's faces
+  const CellField<Real>& lambda;    ///< lambda_B, largest modulus of the law over G, neo-Hookean:
+                                    ///< largest eigenvalue of B; on the band's cells and halo
+  const FaceField<Real>& alpha;     ///< alpha_f, part of solid at the band's faces
   const CellField<Vec3>& u;         ///< owned and halo
   const CellField<Tensor>& L;       ///< velocity gradient, on the band and halo
   const CellField<Real>& fraction;  ///< alpha; owned and halo
   /// Shear modulus, density, viscosity of the solid; length of the step.
   Real G, rho, mu_s, dt;
-  bool kink = false;  ///< the mean of L allows for a kink of u at the surface
-  /// In the zone L is that of the cell's own side of the surface (InterfaceGradient).
+  bool kink = false;  ///< whether the mean of L allows for the kink of u
+  /// Whether L in the simplex zone is one-sided (InterfaceGradient).
   bool one_sided = false;
-  /// Of a surface between two viscosities, in cells at it, else zero; none: one viscosity.
+  /// The normal m in cells at a surface between two viscosities, else zero; null: one viscosity.
   const CellField<Vec3>* normal = nullptr;
-  Real rho_least = rho;  ///< of the solid and what is beside it
+  Real rho_least = rho;  ///< the least density of solid and fluid
 };
 
-/// Two terms that leave a resolved solution alone and keep the pair of velocity and strain stable:
+/// Two terms that keep velocity and strain stable and leave a resolved solution unchanged:
 ///
 ///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha_f lambda_B
 ///
-/// stands in for the change of the elastic stress over the step, which with leapfrog is div(dt G
-/// B . grad u) by div u = 0. Of another law G lambda_B is its largest modulus (law/law.hpp). A
-/// share of 1/4 of it or more makes the pair stable for any dt, w^2 dt^2 / (1 + c w^2 dt^2) <= 4.
-/// The fastest mode turns by arccos(1 - 1 / (2 c)) a step. With c = 0.3 that is 132 degrees, and
-/// what the surface excites on its way through the cells stays in a thin body. With 0.4 it is 104.
-/// The term vanishes with the change of u over a step.
+/// It stands for the change of the elastic stress over the step, which by div u = 0 is div(dt G B .
+/// grad u) in the leapfrog of velocity and strain. With a share C of it the leapfrog needs
+/// w^2 dt^2 / (1 + C w^2 dt^2) <= 4, which C >= 1/4 makes true for any dt. The fastest mode turns
+/// by arccos(1 - 1 / (2 C)) in a step. With C = 0.3 that is 132 degrees, and in a thin body the
+/// waves persist that the surface excites as it crosses cells. With C = 0.4 it is 104 degrees. The
+/// term vanishes with the change of u over a step.
 ///
 ///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
-/// compares the compact gradient with the averaged one. The averaged stress does not see what
-/// alternates from cell to cell. This term damps it at the rate of the elastic wave through a cell.
-/// Where the solid's own viscosity does the same by its compact term, only the rest is left to it.
+/// It compares the compact gradient with the averaged one. The averaged stress does not act on a
+/// velocity that alternates from cell to cell, and this term damps it at the rate at which the
+/// elastic wave passes a cell. The compact viscous term of the solid does a part of it, so that e
+/// is less by alpha_f mu_s.
 ///
-/// At a surface between two viscosities (normal) the part of it along the surface alone is left, e
-/// sin^2 of the angle between d and the normal. Across the surface the mean is off by a part of the
-/// kink of u, a stress of first order, and the viscous stress in series damps instead.
+/// At a surface between two viscosities e is multiplied by sin^2 of the angle between d and the
+/// normal. Across the surface the kink makes avg L inaccurate, which would be a stress of first
+/// order. There the viscous stress in series damps instead.
 ///
-/// The mean is (L_P + L_N) / 2, exact for a quadratic velocity. At the surface u has a kink, and
-/// the mean is alpha_f L_s + (1 - alpha_f) L_f, s and f the cells on either side. That is exact for
-/// two linear pieces if L is the mean of the gradients to both sides of its cell, or that of the
-/// cell's own. Without `kink` the mean is that of the face.
+/// The mean avg L is (L_P + L_N) / 2, exact for a quadratic velocity. At the surface it is
+/// alpha_f L_solid + (1 - alpha_f) L_fluid, with L of the cells on either side. That is exact for a
+/// linear velocity with a kink, if L is one-sided or the mean of both sides. Without `kink` avg L
+/// is linear between the cells.
 ///
-/// The term is explicit, and so e is at most 1.5 (kappa + m) with m = rho |d|^2 / dt min(1 / 8,
-/// 1 / (2 K)). rho is the least density around, K = sum_f g |d|^2 / (2 V) the larger of the two
-/// cells. A velocity that differs from all neighbours' then changes by no more than 1.5 of itself
-/// in a step, whatever the shape of its cell. K = dim on squares and regular simplices, 10 and more
-/// on slivers. Triangles and tetrahedra, whose gradient has more such modes, need all of it.
+/// The term is explicit, so that e is at most 1.5 (kappa + mu_rho). Here mu_rho = (rho |d|^2 / dt)
+/// min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and
+/// K = sum_f g |d|^2 / (2 V) the larger one of both cells. A velocity that differs from all its
+/// neighbours then changes by at most 1.5 of the difference in a step, for any shape of cell. K =
+/// dim on squares and regular simplices, and 10 or more on slivers.
 ///
-/// With L from the cell's own side (sided) kappa grows by what makes all of e stable,
-/// i = e / 1.5 - kappa - m where that is positive. Otherwise mu_s counts as 0 and u* stands in
-/// place of the first u^n. Either costs an error of first order in dt. With L of one side a face
-/// has no flux that would give energy to the strain: such an L is no mean of the faces' gradients.
-/// Left out is a flux whose part along u_N - u_P less the spin of avg L times d is negative. A map
-/// on triangles and tetrahedra needs twice the root.
+/// Faces of the simplex zone need all of e, since more modes alternate there. With a one-sided L,
+/// kappa is raised to e / 1.5 - mu_rho if it is less. A flux of e that would add energy to the
+/// strain is set to 0: its product with u_N - u_P less the spin of avg L times d is negative. Such
+/// fluxes occur since a one-sided L is no mean of the gradients at the faces. With the map
+/// kinematics e is twice the root instead, and kappa grows by e. Both cost an error of first order
+/// in dt.
 class SemiImplicitElasticity {
  public:
   /// Collective. mesh and zone must outlive it.
@@ -79,19 +81,19 @@ class SemiImplicitElasticity {
   /// kappa / (dt G alpha lambda_B).
   static constexpr Real implicit_fraction = 0.4;
 
-  /// Takes out what the last `apply` added.
+  /// Sets kappa to zero on the faces of the last `apply`.
   void clear(FaceField<Real>& kappa);
 
-  /// Collective. kappa_f += the implicit coefficient, at faces of the zone with i or e
-  /// added; lambda_B linear between the cells, times the face's alpha; nothing outside the band.
-  /// force += the explicit rest of the second.
+  /// Collective. kappa_f += the implicit coefficient, with what e needs at faces of the zone.
+  /// lambda_B is linear between the cells. Nothing is added outside the band. force += the explicit
+  /// term.
   void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const ElasticTerms& solid,
              const FaceWeights& weights, const Band& band);
 
  private:
   const Mesh& mesh_;
   const SimplexZone& zone_;
-  std::vector<Real> inertia_;  // [n_internal] m dt / (rho |d|^2)
+  std::vector<Real> inertia_;  // [n_internal] mu_rho dt / (rho |d|^2)
   std::vector<Index> last_faces_;
 };
 

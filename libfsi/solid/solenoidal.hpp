@@ -1,6 +1,5 @@
 #pragma once
-// The divergence that cell velocities keep, taken out of the velocity gradient that strains a
-// solid.
+// Removes the divergence of the cell velocities from the velocity gradient that strains a solid.
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/stencil.hpp"
@@ -10,8 +9,8 @@
 
 namespace fsi::solid {
 
-/// phi_f - u_f . S_f of an inner face, u_f as in the flux itself, with the cells' mean L.
-/// L: set on both sides of irregular faces.
+/// phi_f - u_f . S_f of an internal face, with u_f the face value of the flux operator and the mean
+/// of L over both cells. L: set on both sides of irregular faces.
 inline Real flux_defect(const FlowSnapshot& snapshot, const Mesh& mesh, Index f) {
   const FaceWeights& weights = snapshot.weights;
   Vec3 u_f = mirror_mean(snapshot.u, f, weights, mesh);
@@ -20,10 +19,13 @@ inline Real flux_defect(const FlowSnapshot& snapshot, const Mesh& mesh, Index f)
   return snapshot.phi[f] - dot(u_f, mesh.Sf[f]);
 }
 
-/// Velocity of known cell c with what the fluxes between known cells tell besides,
-///   u + (1/V) sum_f (phi_f - u_f . S_f) r_f,   r_f from the centre along d to the face:
-/// the part of a pressure's increment that its averaged gradient leaves in u but the flux does not
-/// have. No face at the surface takes part, where u has a kink.
+/// The velocity utilde of known cell c, corrected by the fluxes of faces between two known cells.
+/// r_f leads from the centre along d to the face:
+///   utilde_c = u_c + (1/V) sum_f (phi_f - u_f . S_f) r_f,   r_f from the centre along d to the
+///   face.
+/// The projection changes the fluxes by the compact gradient of the pressure's increment and u by
+/// the averaged one; the sum is their difference. At the surface u has a kink, so faces there do
+/// not count.
 inline Vec3 velocity_of_fluxes(const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                                const Mesh& mesh, Index c) {
   Vec3 sum;
@@ -37,10 +39,10 @@ inline Vec3 velocity_of_fluxes(const FlowSnapshot& snapshot, const CellField<Rea
   return snapshot.u[c] + (1 / mesh.V[c]) * sum;
 }
 
-/// Gradient at owned cell c with the flux for the normal velocity of its faces,
-///   L + (1/V) sum_f (phi_f - u_f . S_f) n (x) n,   n = S_f / |S_f|,
-/// the sum outward: exact for linear fields whose flux is theirs, its trace on an orthogonal mesh
-/// div phi. L: that of the cell's neighbours too at irregular faces.
+/// Gradient at owned cell c with the normal velocity of its faces from the fluxes,
+///   L + (1/V) sum_f (phi_f - u_f . S_f) n_f (x) n_f,   n_f = S_f / |S_f|,   outward sum.
+/// It is exact for a linear u with the fluxes of that u. On an orthogonal mesh its trace is div
+/// phi. L: set in the cell's neighbours too at irregular faces.
 inline Tensor flux_consistent_gradient(const FlowSnapshot& snapshot, const Mesh& mesh, Index c) {
   Tensor sum;
   for (const Index f : mesh.cell_faces[c]) {
@@ -52,10 +54,11 @@ inline Tensor flux_consistent_gradient(const FlowSnapshot& snapshot, const Mesh&
   return snapshot.L[c] + (1 / mesh.V[c]) * sum;
 }
 
-/// L of a cell at the surface with its trace taken out along the normal,
-///   L - tr(L) n (x) n,   n that of `inward_normal`:
-/// what differs along the surface is continuous and smooth, div u = 0 gives the rest. L itself
-/// where the solid is alike on all sides.
+/// L of a cell at the surface without its trace, which is taken off along the normal m of the
+/// surface:
+///   L - tr(L) m (x) m,   m from `inward_normal`.
+/// Derivatives along the surface are continuous, and div u = 0 gives the normal one. It is L itself
+/// if alpha is symmetric about the cell.
 inline Tensor remove_normal_divergence(const Tensor& L, const CellField<Real>& alpha,
                                        const Mesh& mesh, Index c) {
   const Vec3 n = inward_normal(alpha, mesh, c);

@@ -8,7 +8,7 @@ namespace fsi::solid {
 
 int parts(Real strain, int most) {
   const Real wanted = global_max(strain) / strain_of_part;
-  // Nothing is gained by parts where the strain is not a number.
+  // A strain that is not a number gives one part.
   return wanted > 1 ? static_cast<int>(std::ceil(std::min<Real>(wanted, most))) : 1;
 }
 

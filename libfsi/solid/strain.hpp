@@ -1,5 +1,5 @@
 #pragma once
-// How far the solid strains in a step, and the parts in which it does.
+// How much the solid strains in a step, and the parts into which a step is divided for it.
 
 #include <algorithm>
 
@@ -7,25 +7,25 @@
 
 namespace fsi::solid {
 
-/// What a transport did to the solid, on this rank.
+/// The strain of the solid in a transport, on this rank.
 struct Strain {
-  Real rate = 0;     ///< largest rate of log B following the solid
+  Real rate = 0;     ///< largest rate of log B along a particle
   Real of_part = 0;  ///< largest change of log B in one part of the step
 };
 
-/// A step in which the solid would strain by more than this is taken in parts, or made smaller.
+/// A step in which the solid would strain by more than this is divided, or made smaller.
 inline constexpr Real strain_of_part = 0.4;
-/// A step, or one of its parts, in which it strains by more than this is taken back.
+/// A step is taken back if the solid strains by more than this in it or in one of its parts.
 inline constexpr Real strain_max = 0.5;
-/// At most so many parts.
+/// The largest number of parts.
 inline constexpr int parts_max = 16;
 
-/// Collective. Into how many equal parts to divide what is left of a step, at most `most`. strain:
-/// what this rank's solid would strain in it.
+/// Collective. The number of equal parts into which to divide the rest of a step, at most `most`.
+/// strain: what this rank's solid would strain in this rest.
 int parts(Real strain, int most);
 
-/// Collective. A step of dt in parts: rate() is the strain rate to begin the next part with,
-/// advance(part) takes it over that time and returns the rate that it ended with.
+/// Collective. Takes a step of dt in parts. rate() is the strain rate at the start of the next
+/// part. advance(part) takes the solid over that time and returns the rate at its end.
 template <class Rate, class Advance>
 Strain in_parts(Real dt, const Rate& rate, const Advance& advance) {
   Strain strain;

@@ -18,7 +18,7 @@ SymTensor twice_symmetric(const Tensor& L) {
 
 Vec3 along_surface(const Vec3& v, const Vec3& m) { return v - dot(v, m) * m; }
 
-/// Whether the surface lies between the centres of face f; rounding of alpha is none.
+/// Whether the surface lies between the centres of face f, beyond rounding of alpha.
 bool at_surface(const Surface& surface, const Mesh& mesh, Index f) {
   if (f >= mesh.n_internal || norm2(surface.normal_f[f]) == 0) return false;
   const Real a = surface.alpha[mesh.owner[f]], b = surface.alpha[mesh.neighbour[f]];
@@ -70,7 +70,7 @@ void SurfaceTraction::mark(const Surface& surface, const Band& band) {
   mesh_.halo.update(touch_);
 }
 
-// Each component of the fit for itself: M L^T = R^T - k a, a = (h - R M^-1 k) / (q - k M^-1 k).
+// Each component of u has its own fit: M L^T = R^T - k a, a = (h - R M^-1 k) / (q - k M^-1 k).
 void SurfaceTraction::fit(const Surface& surface, Index c) {
   const Vec3 m = surface.normal[c];
   const Real height = surface.height[c];
@@ -84,7 +84,7 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
     const Real w = fit.add(r, du);
     k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
   });
-  constexpr Real flat = 1e-3;  // part that counts as none left
+  constexpr Real flat = 1e-3;  // part below which a direction is not spanned
   if (!tells(fit.M, mesh_.dim, flat)) {
     L_[c] = surface.L[c], kink_[c] = {};
     return;
@@ -142,25 +142,25 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Real alpha_f = surface.alpha_f[f];
   const Vec3 du = surface.u[N] - surface.u[P];
   const Sides side = sides(f, m, weights);
-  const Tensor L = side.L + alpha_f * outer(side.a, m);  // over the whole way between the centres
+  const Tensor L = side.L + alpha_f * outer(side.a, m);  // mean over the line between the centres
   const SymTensor D = twice_symmetric(L);                // 2 D
   const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
   const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights, mesh_), m);
   const Vec3 Gb = along_surface(Tm, m);
-  // (mu_least - mu_s) 2 D . m of the solid's own side, which mu_least has too much
+  // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
   const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
   const Real excess = mu_.solid - mu_.fluid, s = excess * dot(Dm, m);
   const Real mu_h = 1 / (alpha_f / mu_least_ + (1 - alpha_f) / mu_.fluid);
   const Real series = alpha_f * mu_h / mu_least_;
-  // e (m . S): the difference along d is that of the face, m . S = g m . d + m . k
+  // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
   const Vec3 e_mS =
       along_surface(weights.g[f] * (du - dot(L, along_surface(d, m))) +
                         dot(m, weights.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
                     m);
-  // (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
+  // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
   const Vec3 traction = (mu_h - mu_.fluid) * (e_mS + dot(e, S) * m) +
                         (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
-  // + alpha_f ((mu_s - mu_f) 2 D^0 - s I)
+  // + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I)
   const Vec3 rest = (alpha_f * excess) * (dot(D, S) - shear(e, m, S)) - (alpha_f * s) * S;
   const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
   return {traction + transposed + rest, s};
@@ -177,7 +177,7 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_c
     const FaceExcess at_face = excess_at(f, surface, weights);
     const Real s = at_face.s;
     const Vec3 S = mesh_.Sf[f], du = surface.u[N] - surface.u[P];
-    // what the momentum equation has in its place: the mean viscosity
+    // the stress of the momentum equation that it replaces: the mean viscosity
     Vec3 along_S = weights.g[f] * du;
     if (const Index i = weights.place[f]; i >= 0) along_S += dot(surface.L_f[i], weights.k[f]);
     const Real mean_excess = surface.mu[f] - mu_.fluid;
@@ -203,7 +203,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
   for (const Index c : band.cells()) {
     const bool more_viscous = uncut(surface.alpha[c]);
     if (!more_viscous && (in || surface.alpha[c] <= 1 - interface_eps)) continue;
-    // what the momentum equation has in the solid, of |mu_s - mu_f|
+    // the term of the momentum equation in the solid, over |mu_s - mu_f|
     const Tensor in_place = (in ? -1 : 1) * surface.L[c];
     const Tensor none{};
     Vec3 sum;
@@ -243,7 +243,7 @@ void SurfaceTraction::add_semi_implicit(FaceField<Real>& kappa, const FaceField<
     Real touched = touch_[mesh_.owner[f]];
     if (f < mesh_.n_internal) touched += touch_[mesh_.neighbour[f]];
     if (touched == 0) continue;
-    // mu_h / mu_s of the traction in series
+    // mu_h / mu_s
     const Real weight = 1 / (alpha_f[f] + (1 - alpha_f[f]) * mu_least_ / mu_.fluid);
     kappa[f] = kappa[f] * weight + mu_.fluid - mu_.solid;
   }

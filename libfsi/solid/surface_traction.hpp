@@ -1,5 +1,5 @@
 #pragma once
-// The viscous stress at the solid's surface, where its viscosity is another than the fluid's.
+// The viscous stress at a surface between two viscosities, that of the solid and that of the fluid.
 
 #include <vector>
 
@@ -11,71 +11,74 @@
 
 namespace fsi::solid {
 
-/// What the traction is made of; cell fields owned and halo.
+/// The fields from which the traction follows; cell fields owned and halo.
 struct Surface {
   const CellField<Vec3>& u;         ///< velocity
   const CellField<Tensor>& L;       ///< velocity gradient
-  const std::vector<Tensor>& L_f;   ///< at irregular faces, as the momentum equation has it
-  const CellField<SymTensor>& T;    ///< as the elastic force takes it; known around the surface
+  const std::vector<Tensor>& L_f;   ///< at irregular faces, as in the momentum equation
+  const CellField<SymTensor>& T;    ///< as in the elastic force; set around the surface
   const CellField<Real>& alpha;     ///< fraction of the solid
-  const FaceField<Real>& alpha_f;   ///< part of solid on the way between the centres
-  const FaceField<Vec3>& normal_f;  ///< of the surface there, zero away from it
-  const CellField<Vec3>& normal;    ///< out of the solid; zero away from the surface
-  const CellField<Real>& height;    ///< of the cell's centre above the surface
-  const FaceField<Real>& mu;        ///< what the momentum equation has, the mean of the cells'
+  const FaceField<Real>& alpha_f;   ///< part of solid between the centres
+  const FaceField<Vec3>& normal_f;  ///< m at the faces, zero away from the surface
+  const CellField<Vec3>& normal;  ///< m in the cells, out of the solid; zero away from the surface
+  const CellField<Real>& height;  ///< distance l of the cell's centre from the surface
+  const FaceField<Real>& mu;      ///< mean viscosity, as in the momentum equation
 };
 
 /// The two viscosities.
 struct Viscosities {
-  /// Dynamic viscosity of each.
+  /// Dynamic viscosities mu_s and mu_f.
   Real solid, fluid;
 };
 
-/// Replaces what the momentum equation has at faces at the surface, normal m. In its place comes a
-/// viscous stress that is exact for a linear velocity with a kink a m, a . m = 0, at a plane
-/// surface. The traction along the surface is one, of viscosities in series:
+/// Replaces the viscous stress of the momentum equation at faces at the surface. The new stress is
+/// exact for a linear velocity with a kink a m, a . m = 0, at a plane surface with normal m. The
+/// two viscosities act in series along the surface, with the harmonic mean mu_h:
 ///
-///   T = mu_s (2 D_s . m)_t + G (T . m)_t = mu_f (2 D_f . m)_t,   t: along the surface
-///   T = mu_h ((2 D . m)_t + alpha_f G (T . m)_t / mu_s),   1 / mu_h = alpha_f / mu_s
-///       + (1 - alpha_f) / mu_f,   2 D . m = alpha_f 2 D_s . m + (1 - alpha_f) 2 D_f . m
+///   gammadot = (2 D . m)_t,   tau_t = G (T . m)_t,   t: the part along the surface,
+///   1 / mu_h = alpha_f / mu_s + (1 - alpha_f) / mu_f,   s_mu = (mu_s - mu_f) 2 m . D . m.
 ///
-/// and so is D without its part (D . m)_t, D^0. With s = (mu_s - mu_f) 2 m . D . m the excess over
-/// mu_f 2 D and over what the elastic stress has is
+/// The traction along the surface is the same on both sides,
+///   mu_s gammadot_solid + tau_t = mu_f gammadot_fluid = mu_h (gammadot + alpha_f tau_t / mu_s),
+/// with gammadot = alpha_f gammadot_solid + (1 - alpha_f) gammadot_fluid. In cell c the stress of
+/// the face beyond mu_f 2 D and beyond the elastic stress of ElasticForce is
 ///
-///   (mu_h - mu_f) (e m + m e) + (alpha_f mu_h / mu_s - alpha_f) G (b m + m b)
-///     + alpha_f ((mu_s - mu_f) 2 D^0 - s I) + alpha_c s I,   e = (2 D . m)_t, b = (T . m)_t
+///   (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
+///     + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I) + alpha_c s_mu I,
 ///
-/// and sum_f g_cf s (alpha_n - alpha_c): a jump of the pressure bears s (elastic_force.hpp). D is
-/// that of the cells' least-squares fit of L . r + a (min(0, h + m . r) - min(0, h)); but in e . m
-/// the difference along d is that of the face. mu_s counts as mu_f / 4 at least, less the
-/// difference times D of the solid's own side: nothing would tie the fluid to a solid without
-/// viscosity.
+/// D^0 = D - (gammadot m + m gammadot) / 2, the same on both sides. A jump of the pressure balances
+/// the rise s_mu (alpha_N - alpha_P), which acts by calL_c and c_f (BalancedJumpForce). D comes
+/// from a least-squares fit of L . r + a (min(0, l + m . r) - min(0, l)), l the distance from the
+/// surface (`height`). Only in gammadot . m the difference along d is that of the face. mu_s counts
+/// as at least mu_f / 4, and the surplus times D of the solid's own side is subtracted. Nothing
+/// else would tie the fluid to a solid without viscosity.
 ///
-/// Over the lesser viscosity, the transposed gradient of uncut cells of the more viscous side
-/// becomes a sum of fluxes too, |mu_s - mu_f| L_f^T . S with L of that side. So no flux is lost:
-/// what one cell loses another gets. That of the other side is none.
+/// In uncut cells of the more viscous side the transposed gradient becomes a sum of fluxes too,
+/// |mu_s - mu_f| L_f^T . S with L of that side. On the other side it has no such fluxes. The flux
+/// of a face is the same for both of its cells.
 class SurfaceTraction {
  public:
   /// Collective.
   SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G, Viscosities mu);
 
-  /// Collective. Adds to the force, and the jump of s to the face flux's balance. band: that of the
-  /// elastic stress, force and balance cleared there.
+  /// Collective. Adds to the force, and adds the rises of s_mu to c_f (`rhie_chow_source`). band:
+  /// that of the elastic stress, force and c_f cleared there.
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
              const FaceWeights& weights, PressureStencil& pressure, const Band& band);
 
-  /// Viscosities of more than this many times the fluid's are left to the mean of the cells: a
-  /// stress of that size, taken explicitly, makes the strain rough.
+  /// Beyond this ratio mu_s / mu_f the mean viscosity stays: so large a stress, taken explicitly,
+  /// makes the strain rough.
   static constexpr Real ratio_max = 50;
 
-  /// After apply: what makes the explicit stress stable at the faces of cells at the surface where
-  /// the fluid is the more viscous; nothing where the solid is, whose own implicit term does it.
+  /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
+  /// fluid is the more viscous one. If the solid is, its implicit viscous term is enough.
   ///
-  ///   kappa_f <- kappa_f mu_h / mu_s + c (mu_f - mu_s),   c = 1
+  ///   kappa_f <- kappa_f mu_h / mu_s + C (mu_f - mu_s),   C = 1
   ///
-  /// kappa_f has alpha_f, the elastic stress alpha_f mu_h / mu_s. The second is on the change of u
-  /// in a step, an error of dt in the stress of these faces alone: of second order in u if dt ~ h.
-  /// With c = 0.2 an inclusion of mu_s / mu_f = 1e-4 in Stokes flow grows, with 0.3 it does not.
+  /// The elastic stress of such a face has the factor alpha_f mu_h / mu_s, where kappa_f has
+  /// alpha_f. The second term acts on the change of u in a step. Its error is of order dt in the
+  /// stress of these faces alone, and of second order in u if dt ~ h. With C = 0.2 an inclusion of
+  /// mu_s / mu_f = 1e-4 in Stokes flow becomes unstable, with 0.3 it does not.
   void add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
                          const Band& band) const;
 
@@ -84,7 +87,7 @@ class SurfaceTraction {
 
  private:
   void clear(const Band& band);
-  /// Of a cell of the more viscous side.
+  /// Whether a cell is uncut and on the more viscous side.
   bool uncut(Real alpha) const;
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
@@ -93,13 +96,14 @@ class SurfaceTraction {
                   const FaceWeights& weights, PressureStencil& pressure, const Band& band);
   void add_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
                       const Band& band) const;
-  /// The excess times S at a face but for alpha_c s I, over the lesser viscosity; and s.
+  /// The stress above times S at a face, without alpha_c s_mu I and over the lesser viscosity;
+  /// s_mu.
   struct FaceExcess {
     Vec3 flux;
     Real s;
   };
   FaceExcess excess_at(Index f, const Surface& surface, const FaceWeights& weights) const;
-  /// Gradient along the surface, kink and the solid's own D at a face.
+  /// Gradient on the fluid's side, kink a and 2 D of the solid's own side at a face.
   struct Sides {
     Tensor L;
     Vec3 a;
@@ -110,14 +114,14 @@ class SurfaceTraction {
   const Mesh& mesh_;
   Real G_;
   Viscosities mu_;
-  Real mu_least_;                 // that counts for the solid's in series
-  BalancedJumpForce jump_force_;  // s
+  Real mu_least_;                 // mu_s as it counts in mu_h
+  BalancedJumpForce jump_force_;  // of the rises of s_mu
   CellField<Real> touch_;         // 1: has a face at the surface; 2: and is uncut, more viscous
-  CellField<Tensor> L_, L_in_;  // fit at the surface; of the more viscous side's uncut cells there
-  CellField<Real> fitted_;      // 1: has a fit
-  CellField<Vec3> kink_;        // a
-  CellField<SymTensor> own_;    // 2 D of the solid's side
-  CellField<Real> has_own_;     // 1: of its own cells, 2: continued
+  CellField<Tensor> L_, L_in_;    // fit at the surface; one-sided L of uncut cells there
+  CellField<Real> fitted_;        // 1: has a fit
+  CellField<Vec3> kink_;          // a
+  CellField<SymTensor> own_;      // 2 D of the solid's side
+  CellField<Real> has_own_;       // 1: by a fit, 2: a mean over neighbours
   std::vector<Index> last_cells_, last_faces_;
 };
 

@@ -3,12 +3,12 @@
 namespace fsi::solid {
 namespace {
 
-/// What viscosities in series add to the gradient on which a face's stress T works, over alpha_f:
-/// (mu_h / mu_s - 1) (b m + m b) : e S, b = (T . m)_t, is T : the result (surface_traction.hpp).
-Tensor of_traction(const Vec3& e, const Vec3& S, const Vec3& m, Real alpha_f, Real ratio) {
-  const Vec3 em = dot(S, m) * e + dot(e, m) * S;  // (e S + S e) . m
+/// What viscosities in series add to L* at a face, over w_f alpha_f. The power of the stress
+/// (mu_h / mu_s - 1) (b m + m b), b = (T . m)_t, on the velocity difference v is T : the result.
+Tensor of_traction(const Vec3& v, const Vec3& S, const Vec3& m, Real alpha_f, Real ratio) {
+  const Vec3 vm = dot(S, m) * v + dot(v, m) * S;  // (v S + S v) . m
   const Real series = 1 / (alpha_f + (1 - alpha_f) * ratio);
-  return (series - 1) * outer(em - dot(em, m) * m, m);
+  return (series - 1) * outer(vm - dot(vm, m) * m, m);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// A bound for the strain of the solid's outermost cells, and of those near walls in the zone of
-// simplices: the work that its force takes up.
+// The bound by the work: L of the outermost cells, and of known cells near walls of the simplex
+// zone, stores no more energy than the elastic force takes from the flow.
 
 #include <algorithm>
 #include <cmath>
@@ -17,27 +17,32 @@ constexpr Real power(const SymTensor& T, const Tensor& L) {
          T.yz * (L.yz + L.zy);
 }
 
-/// M - L, where M is the gradient on which the elastic force works in known cell c. Let T be the
-/// stress there and in what goes on with it around the solid. From a flow whose gradients are L and
-/// those of the cells inside, ElasticForce takes W T : L, from u
-///   W T : M,   W (M - L) = sum_f w [alpha_f e (x) S_f + (alpha' - alpha_f) (e . S_f) n (x) n],
-///   e = u_N - u_P - L_f . d,   W = sum_f w alpha' d . S_f / dim.
-/// L_f is the mean of L and that of an inner cell behind the face, else L. alpha' is that of both
-/// cells and n the surface's normal. w is the cell's part of the face's stress, 1 where the other
-/// cell goes on with it. M - L is zero where no face has a part of it. alpha: of what is known.
-/// Between two viscosities in series the traction of T along the surface is mu_h / mu_s times as
-/// large (SurfaceTraction). With v = u_N - u_P the sum gets, at inner faces,
-///   w alpha_f (mu_h / mu_s - 1) (I - n n) . (v (x) S_f + S_f (x) v) . n (x) n.
-/// Of both viscosities' exact kink, the cell takes up less than the force by (1 - alpha mu_h /
-/// mu_s) |b|^2 alpha / mu_s, b the elastic traction: the bound leaves it as it is.
+/// L* - L, where L* is the velocity gradient on which the elastic force works in known cell c. Let
+/// T be the stress in the cell and in the unknown cells to which it is extrapolated. From a flow
+/// with the gradient L in the cell and those of the inner cells beside it, ElasticForce takes
+/// V* T : L per time. From u it takes V* T : L*, with
+///   V* (L* - L) = sum_f w_f [alpha_f Delta_f (x) S_f
+///                            + (alphabar_f - alpha_f) (Delta_f . S_f) m (x) m],
+///   V* = sum_f w_f alphabar_f d . S_f / dim,   Delta_f = u_N - u_P - L_f . d.
+/// If the cell beyond the face is an inner one, L_f is the mean of L and of its gradient, else L.
+/// alphabar_f is the mean of alpha of both cells, m the normal of the surface. w_f is the share of
+/// the cell in the stress of the face, and 1 if the cell beyond is not known. Without such faces
+/// the result is zero. alpha: the fraction that decides which cells are known.
+///
+/// Between two viscosities in series the elastic traction b = (T . m)_t along the surface acts with
+/// the factor mu_h / mu_s (SurfaceTraction). At inner faces the sum then gets, with v = u_N - u_P,
+///   w_f alpha_f (mu_h / mu_s - 1) (I - m m) . (v (x) S_f + S_f (x) v) . m (x) m.
+/// In the exact flow with a kink, the cell stores less than the force takes, by
+/// (1 - alpha mu_h / mu_s) |b|^2 alpha / mu_s. The bound leaves its L unchanged.
 Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellField<Real>& alpha,
                       const Extension& extension, const Mesh& mesh, Index c);
 
-/// L - chi T, chi = (-T : excess - |T| |D| / 10) / (T : T) from 0 to |D| / |T|. Gone is the part of
-/// L by which the cell would take up more energy than the force takes from the flow. A tenth of |T|
-/// |D|, the largest power of D, is left, since M is of first order there. So the strain of a
-/// resolved slab is as exact as without the bound, and with twice as much waves grow on stiff
-/// triangles. With more than |D| what is at rest would follow the noise of u around it.
+/// L - zeta T,   zeta = (T : (L - L*) - |T| |D| / 10) / (T : T), limited to 0 to |D| / |T|. excess:
+/// L* - L. Without this part of L the cell stores no more energy than the force takes from the
+/// flow. L* is of first order, so a tenth of |T| |D|, the largest power of D, is tolerated. With it
+/// the strain of a resolved slab is as exact as without the bound. With two tenths, waves grow on
+/// stiff triangles. If zeta could exceed |D| / |T|, a solid at rest would strain with the noise of
+/// u around it.
 inline Tensor bound_by_work(const Tensor& L, const Tensor& excess, const SymTensor& T) {
   const Tensor t{T.xx, T.xy, T.xz, T.xy, T.yy, T.yz, T.xz, T.yz, T.zz};
   constexpr Real allowed = 0.1;

@@ -14,11 +14,11 @@
 namespace fsi {
 namespace {
 
-/// What a step must not leave behind; more than the limits that it was chosen by, since the state
-/// that it ends with is not known before.
+/// Limits of the state after a step. They are wider than those by which the step was chosen, since
+/// its final state is not known before.
 constexpr Real courant_max = 1.2;           // transport crosses one cell in a step
 constexpr Real carried_max = 1 + 1e-9;      // in the step of the solid: vof/advect.hpp
-constexpr Real elastic_max = 1.2;           // of what elastic waves allow; beyond they grow
+constexpr Real elastic_max = 1.2;           // of the elastic limit; beyond it waves grow
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
@@ -136,7 +136,7 @@ void Solver::at_one_time(const std::function<void()>& use) {
 
 void Solver::require_step(Real dt) const {
   require_bodies();
-  if (dt > 0 && std::isfinite(dt)) return;  // no sentence is made in every step
+  if (dt > 0 && std::isfinite(dt)) return;  // the message is made in case of an error only
   throw Error(
       ErrorKind::input,
       print("a step of length dt = %g was asked for at t = %g: dt must be above 0 and finite", dt,
@@ -154,7 +154,7 @@ void Solver::require_finite(const CellField<Vec3>& u_0) const {
                                all[i + 1], all[i + 2], all[i + 3]));
 }
 
-// A shorter step would not mend it.
+// A shorter step would not help.
 bool Solver::balanced(Real t) {
   if (!prescribed_) return true;
   set_boundary_velocity(u_b_new_, state_.u, conditions_, t, mesh_);

@@ -51,7 +51,7 @@ OffWalls::OffWalls(const Mesh& mesh, const std::vector<Patch>& walls,
 void OffWalls::set(const CellField<Real>& fraction, const Mesh& mesh) {
   const auto of_solid = [&](Index c) { return fraction[c] >= solid::alpha_known; };
   alpha.assign(fraction);
-  // A cell without another beyond its faces does not know its strain (Extension).
+  // A cell is known only if a face neighbour has alpha of at least 1/2 too (Extension).
   for (const Index c : beside)
     known[c] = of_solid(c) && std::ranges::any_of(mesh.cell_faces[c], [&](Index f) {
                  const Index n = beyond(mesh, f, c);
@@ -129,7 +129,7 @@ void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
         for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
       },
       kinematics);
-  held = false;  // B does not tell how the shape came from the undeformed one
+  held = false;  // the map from the undeformed shape does not follow from B
   resume();
 }
 

@@ -1,4 +1,4 @@
-// What a step does where a solid's density is not the fluid's.
+// The calls of a step for a solid with another density than the fluid.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ void Solver::mix_density() {
   projection_.set_density(density);
 }
 
-// Until all faces are at rest: sum_f (rho_0 / rho_f) (forces - compact grad p) . S = 0
+// Solved until all faces are at rest: sum_f (rho_0 / rho_f) (forces - compact grad p) . S = 0
 void Solver::balance_weight(State& state) {
   const Profile::Call call(profile_, calls_.balance_weight);
   if (!heavy_) return;

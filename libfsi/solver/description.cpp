@@ -1,5 +1,4 @@
-// What a step of this scene does, call by call: what was chosen when mesh, conditions and solids
-// were given (doc/theory/step.md).
+// The text of -describe_step: what each call of a step does in this scene (doc/theory/step.md).
 
 #include <algorithm>
 #include <array>
@@ -10,24 +9,24 @@
 namespace fsi {
 namespace {
 
-/// What the calls that work on a solid do with this one; "": nothing.
+/// The actions of the calls that work on a solid, for this solid; "": nothing.
 struct OfBody {
   std::string hold, advance, jump, memory, elastic, force, implicit;
 };
 
 std::string elastic(const Body& body) {
   if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
-    return "alpha^(1/2) B carried and strained by grad u";
-  std::string what = "the map carried";
+    return "alpha^(1/2) B carried by the fluxes and strained by grad u";
+  std::string what = "the map carried by the fluxes";
   if (!std::holds_alternative<solid::ReferenceMap>(body.kinematics)) {
-    what = "log B carried and strained by ";
-    if (body.strain_by_flux()) what += "velocities and fluxes";
+    what = "log B carried by the fluxes and strained by ";
+    if (body.strain_by_flux()) what += "L corrected by the fluxes";
     if (body.strain_by_flux() && body.interface_gradient) what += ", at triangles and tetrahedra ";
-    if (body.interface_gradient) what += "a fit of one side of the surface";
-    if (body.remembers()) what += ", drawn to the map";
-    if (!body.two_viscosities) what += "; strain of outermost cells bounded by the force's work";
+    if (body.interface_gradient) what += "a quadratic one-sided fit of L";
+    if (body.remembers()) what += ", relaxed towards the memory";
+    if (!body.two_viscosities) what += "; L of outermost cells bounded by the work of the force";
   }
-  return what + (body.off_walls ? "; cells at walls extended from inside" : "");
+  return what + (body.off_walls ? "; cells at walls extrapolated from inside" : "");
 }
 
 std::string force(const Body& body) {
@@ -40,20 +39,20 @@ std::string force(const Body& body) {
 
 OfBody calls_of(const Body& body) {
   OfBody calls;
-  if (body.map() != nullptr && body.held) calls.hold = "alpha towards the shape that the map tells";
+  if (body.map() != nullptr && body.held) calls.hold = "alpha moved towards the shape of the map";
   calls.advance = body.time_offset() < 1 ? "to half a step after t" : "to the end of the step";
-  if (body.advects_pressure_jump()) calls.jump = "carried with the surface";
-  if (body.remembers()) calls.memory = "the map carried beside log B";
+  if (body.advects_pressure_jump()) calls.jump = "pressure jump moved with the surface";
+  if (body.remembers()) calls.memory = "the memory carried with the flow";
   calls.elastic = elastic(body);
   calls.force = force(body);
   if (body.semi_implicit()) {
     calls.implicit = "kappa = 0.4 dt G alpha_f lambda, and the damping e";
-    if (body.two_viscosities) calls.implicit += "; a share of the traction";
+    if (body.two_viscosities) calls.implicit += "; a part of the traction";
   }
   return calls;
 }
 
-/// What a call does with each solid; by their names where there are several.
+/// The action of a call on each solid; with their names if there are several.
 std::string of_bodies(const std::deque<Body>& bodies, std::string OfBody::*call) {
   std::string line;
   for (const Body& body : bodies) {
@@ -71,11 +70,10 @@ std::string numbered(std::size_t call, const char* name, const std::string& what
   return head.data() + (what.empty() ? "nothing" : what);
 }
 
-/// What is implicit in the momentum equation, by the bodies' part of it.
+/// The implicit part of the momentum equation, from that of the bodies.
 std::string with_convection(const std::string& of_bodies, bool convection) {
   if (!convection) return of_bodies;
-  const std::string cells =
-      "convection of cells that the flow crosses faster than those around them";
+  const std::string cells = "convection of triangles and tetrahedra beyond its explicit limit";
   return of_bodies.empty() ? cells : cells + "; " + of_bodies;
 }
 
@@ -92,7 +90,7 @@ std::vector<std::string> Solver::describe_step() const {
   const std::array<std::pair<const char*, std::string>, 18> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},
-      {"separate_bodies", where(separation_.has_value(), "sum of the fractions brought to 1")},
+      {"separate_bodies", where(separation_.has_value(), "sum of the fractions limited to 1")},
       {"advect_pressure_jump", solids(&OfBody::jump)},
       {"set_pressure_gradient", projection_.orthogonal() ? "grad p, adjoint of the flux"
                                 : loaded ? "grad p with the pressure of the openings"
@@ -106,10 +104,10 @@ std::vector<std::string> Solver::describe_step() const {
       {"add_semi_implicit", implicit},
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
       {"balance_weight", where(heavy_.has_value(),
-                               "first step: p at rest under the weight; then what is not at rest")},
+                               "first step: p balances the weight; each step: force on the cells")},
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
-      {"predict_flux", std::string("phi* of u*") +
-                           (modes_.flux_strain ? ", damped by the strain that it makes" : "")},
+      {"predict_flux",
+       std::string("phi* of u*") + (modes_.flux_strain ? ", damped by the term in lambda_B" : "")},
       {"project", projection_.orthogonal() ? "u orthogonally, then phi; p"
                   : loaded                 ? "p, u and phi, with the answers of the openings"
                                            : "p, u and phi"},

@@ -1,4 +1,4 @@
-// Where a state is at its worst, when a run cannot go on: figure, place, cell and the term that
+// The place where a state is worst, if a run cannot continue: figure, place, cell and the term that
 // asks for a shorter step.
 
 #include <algorithm>
@@ -45,8 +45,8 @@ Real size_of(const Tensor& L) {
                    L.yz * L.yz + L.zx * L.zx + L.zy * L.zy + L.zz * L.zz);
 }
 
-/// Collective. 1 / (smallest eigenvalue of B) of cells half solid or more where one of them is past
-/// the limit; else of all in which B is set, specks of solid among them. 0 elsewhere.
+/// Collective. 1 / (smallest eigenvalue of B) in cells half solid or more, if one of them is past
+/// the limit. Otherwise in all cells with B, also those of specks. 0 in other cells.
 std::vector<Real> inverse_eigenvalues(const Body& body, const Mesh& mesh) {
   std::vector<Real> all(static_cast<std::size_t>(mesh.n_owned)), known = all;
   bool past = false;
@@ -113,7 +113,7 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
 std::string Solver::diagnosis_of_force(Term term, Real dt) const {
   const bool of_flow = term == Term::solve || term == Term::convection || term == Term::pressure;
   if (!driving_force_ || !of_flow) return "";
-  // A step that a solve has ended did not come to its own time.
+  // A step that failed in a solve did not reach its end.
   const Real t = state_.t + (term == Term::solve ? dt : -dt) / 2;
   const auto force = [&](Index c) { return norm(driving_force_(mesh_.C[c], t)); };
   // |f| dt^2 / (2 rho h)
@@ -136,7 +136,7 @@ std::string Solver::diagnosis_of_force(Term term, Real dt) const {
 }
 
 std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) const {
-  // The solid's figures are of the cells that hold some of it.
+  // Figures of the solid are those of cells with some of it.
   const auto of_solid = [&](const auto& figure) {
     return [&](Index c) { return body.alpha[c] > 0 ? figure(c) : 0; };
   };

@@ -11,14 +11,14 @@
 namespace fsi {
 namespace {
 
-/// The elastic energy of an undeformed solid is not 0 but what rounding leaves of (tr B - 3) G / 2
-/// in each cell, some eps G V that come and go with every step.
+/// The elastic energy of an undeformed solid is not 0 but the rounding of (tr B - 3) G / 2 in each
+/// cell: some eps G V that vary with every step.
 constexpr Real rounding = 100 * std::numeric_limits<Real>::epsilon();  // of sum_i G_i V_i
 
-/// The pressure bears a force that is a gradient, and nothing moves. What a step leaves of it in
-/// the cells at walls, and where two densities meet, comes and goes. So energies tell nothing below
-/// the work f L V of the force along this part of the domain's length L. As soon as it has moved
-/// the fluid that far, its work counts for more.
+/// If a force is a gradient, the pressure balances it and nothing moves. A small part of it stays
+/// in cells at walls and where two densities meet, and varies. So energies count only beyond the
+/// work f L V of the force along this part of the domain's length L. Once the fluid has moved that
+/// far, the work itself is larger.
 constexpr Real borne = 1e-3;
 
 void add_kinetic_energy(Sum& sum, const Solver& solver) {
@@ -87,8 +87,8 @@ void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
   const State& state = solver.state();
   const Vec3 S = solver.driving_gradient() * solver.axis();
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    // V u by what passes the faces: exact for a force that is the same everywhere, the work of
-    // which is nothing where nothing flows in.
+    // V u from the fluxes of the faces. It is exact for a uniform force, whose work is zero without
+    // inflow.
     Vec3 moved;
     for (const Index face : mesh.cell_faces[c])
       moved += (outward(mesh, face, c) * state.phi[face]) * (mesh.face_centre(face, c) - mesh.C[c]);

@@ -1,4 +1,4 @@
-// What Solver tells of its state: how long a step may be, what stands at openings, gradients.
+// Queries of a Solver on its state: limits of the step, pressures at openings, gradients.
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +17,7 @@ Real Solver::courant_rate_max() const {
       rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
     return global_max(rate);
   }
-  // What the solids carry is explicit.
+  // The transport of the solids is explicit.
   for (const Body& body : bodies_)
     for (const Index c : body.band.cells())
       rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
@@ -71,7 +71,7 @@ Real Solver::boundary_dt(Real courant) const {
 }
 
 Real Solver::elastic_dt(const Body& body) const {
-  // With a density of its own a solid wobbles at the limit more than one without.
+  // A solid of another density than the fluid oscillates more at the limit.
   constexpr Real two_densities = 0.75;
   const Real part = body.rho != physics_.rho ? two_densities : 1;
   return part * body.elastic_number() *

@@ -1,6 +1,6 @@
 #pragma once
-// What a step does with one solid, for Solver and for a loop of one's own (doc/howto/own_loop.md).
-// The numbers are those of doc/theory/step.md; what a call sets stands first.
+// The calls of a step on one solid, for Solver and for a loop of one's own (doc/howto/own_loop.md).
+// The numbers are those of doc/theory/step.md. The first arguments are those that a call sets.
 
 #include <vector>
 
@@ -8,17 +8,17 @@
 
 namespace fsi {
 
-/// Scratch of a strain in which the flux takes part (Body::strain_by_flux): the velocity with what
-/// the fluxes tell besides, and its gradient.
+/// Scratch of a solid whose strain is corrected by the fluxes (Body::strain_by_flux): the velocity
+/// utilde of solid/solenoidal.hpp, and its gradient.
 struct StrainByFlux {
   /// Zero fields; mesh must outlive them.
   explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
-  CellField<Vec3> u;    ///< velocity
+  CellField<Vec3> u;    ///< utilde
   CellField<Tensor> L;  ///< its gradient
 };
 
-/// The flow that carries and strains the solids and that they push, at t^n; cell fields owned and
-/// halo.
+/// The flow that carries and strains the solids, and on which they act, at t^n; cell fields owned
+/// and halo.
 struct FlowAround {
   const CellField<Vec3>& u;          ///< velocity
   const FaceField<Real>& phi;        ///< flux
@@ -27,31 +27,29 @@ struct FlowAround {
   const GradientStencil& u_stencil;  ///< with values where the velocity is given
   PressureStencil& pressure;         ///< of the projection
   const std::vector<Tensor>& L_f;    ///< at irregular faces
-  const FaceField<Real>& mu;         ///< as the momentum equation has it
-  StrainByFlux* by_flux = nullptr;   ///< where some solid's strain needs it
+  const FaceField<Real>& mu;         ///< viscosity, as in the momentum equation
+  StrainByFlux* by_flux = nullptr;   ///< for solids with Body::strain_by_flux
   Real rho_least = 1;                ///< the least density of fluid and solids
   bool has_L = false;  ///< L = grad u is set in all cells; else the calls set it where they need it
   bool leaves = false;  ///< a solid may leave through the boundary
 };
 
-/// (1) Collective. Holds alpha and its planes to the shape that the body's map tells, where it has
-/// one.
+/// (1) Collective. Moves alpha and its planes towards the shape of the body's map, if it has one.
 void hold_shape(Body& body);
 
 /// (2) Collective. Carries alpha and its planes on to time t by the flow, in parts of a Courant
 /// number of 0.2, and sets alpha_mid.
 void advance_interface(Body& body, const FlowAround& flow, Real t);
 
-/// (4) Collective. Carries the jump of the pressure at the surface on with it. p: owned and halo.
+/// (4) Collective. Moves the jump of the pressure with the surface. p: owned and halo.
 void advect_pressure_jump(CellField<Real>& p, const Body& body);
 
-/// (7) Collective. Carries the map to the undeformed solid on, where one goes beside log B. Sets L
-/// on its cells where the flow has none.
+/// (7) Collective. Carries the memory, if there is one. Sets L on its cells if the flow has none.
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow);
 
-/// (8) Collective. Strains the body over the time that `advance_interface` carried it and renews
-/// what follows from alpha and B. Sets L on the cells that strain where the flow has none.
-/// Errors: Error{numerics} where B is beyond the range of the law.
+/// (8) Collective. Strains the body over the time of `advance_interface`, and sets anew what
+/// follows from alpha and B. Sets L on the known cells if the flow has none. Errors:
+/// Error{numerics} if B is beyond the range of the law.
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow);
 
 /// (11) Collective. Adds the elastic force and its counterpart in the face flux, the traction
@@ -59,9 +57,9 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow);
 
-/// (12) Collective. Adds what keeps a step of dt stable, where elasticity is partly implicit.
-/// kappa: cleared by Body::semi_implicit_elasticity before. Sets L on the band where the flow has
-/// none.
+/// (12) Collective. Adds the two terms that keep a step of dt stable, if elasticity is implicit in
+/// part. kappa: cleared by Body::semi_implicit_elasticity before. Sets L on the band if the flow
+/// has none.
 void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
                        CellField<Tensor>& L, const FlowAround& flow, Real dt);
 

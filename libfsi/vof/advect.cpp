@@ -15,7 +15,7 @@ namespace {
 
 constexpr Real bound = 1e-13;    // excess that redistribution leaves
 constexpr Real wisp = 1e-12;     // fractions this close to 0 or 1 become 0 or 1
-constexpr int max_rounds = 100;  // each carries an excess one cell further
+constexpr int max_rounds = 100;  // each moves an excess one cell further
 
 enum Mark : std::uint8_t { none = 0, active = 1, inside = 2 };
 
@@ -108,8 +108,8 @@ void solid_fluxes(const CellField<Real>& alpha, const Interface& interface,
   }
 }
 
-/// alpha after the step: alpha V <- alpha V - sum sigma (dV - alpha phi dt). The second part takes
-/// the divergence of phi out: inside the solid nothing changes, whatever div phi is.
+/// alpha after the step: alpha V <- alpha V - sum sigma (dV - alpha phi dt). The second part
+/// removes the divergence of phi, so that nothing changes inside the solid.
 Real updated(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt, const Mesh& mesh,
              const AdvectScratch& s, Index c) {
   Real sum = 0;
@@ -119,8 +119,8 @@ Real updated(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt, 
   return alpha[c] - sum / mesh.V[c];
 }
 
-/// The share of its outflow by which cell c must change to come back from value a into [0, 1]:
-/// positive of what more can leave, negative of what leaves.
+/// The share of its outflow by which cell c must change to bring its value a back into [0, 1]. It
+/// is positive if more must leave.
 Real needed_share(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const AdvectScratch& s,
                   Index c, Real a) {
   const bool over = a > 1;
@@ -162,8 +162,8 @@ void redistribute(const CellField<Real>& alpha, const FaceField<Real>& phi, Real
   for (const Index c : s.cells) s.share[c] = 0;
 }
 
-/// Volume that taking out the divergence adds: sum over cells of alpha sum sigma phi dt, which by
-/// Gauss's theorem needs the faces with different alpha only.
+/// The volume that the term in div phi adds: sum over cells of alpha sum sigma phi dt. By Gauss's
+/// theorem only faces between different alpha count.
 void add_divergence(Sum& sum, const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt,
                     const Mesh& mesh, const AdvectScratch& s) {
   for (const Index f : s.faces) {
@@ -198,7 +198,7 @@ AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const Fa
   report.courant = courant_number(phi, dt, mesh, s);
   redistribute(alpha, phi, dt, mesh, s, report);
 
-  std::array<Sum, 2> sums;  // volume added, weight of those who give it back
+  std::array<Sum, 2> sums;  // volume added, weight of the cells that give it back
   add_divergence(sums[0], alpha, phi, dt, mesh, s);
   for (const Index c : s.cells) {
     const Real a = updated(alpha, phi, dt, mesh, s, c);

@@ -33,7 +33,8 @@ void set_bend(CellField<Bend>& bend, const Interface& interface, const Mesh& mes
   for (const Index c : interface.cells) {
     if (!bends(mesh, c)) continue;
     const Piece& p = interface.piece[c];
-    SlopeFit fit;  // all planes alike: the normals of near ones differ by their errors
+    // All planes have the same weight: the normals of near ones differ by their errors.
+    SlopeFit fit;
     for_vertex_images(c, mesh, [&](Index k, const Vec3& t) {
       const Piece& q = interface.piece[k];
       if (!(q.area > 0) || dot(p.n_hat, q.n_hat) < same_side) return;

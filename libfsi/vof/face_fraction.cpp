@@ -40,8 +40,8 @@ Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, Real s0, Rea
 
 namespace {
 
-/// The ends of the line at level s on a triangle whose corners have the levels q, x and q sorted;
-/// twice the corner nearest to it where s is out of range.
+/// The ends of the line at level s on a triangle whose corners x have the levels q, both sorted; if
+/// s is out of range, twice the nearest corner.
 std::array<Vec3, 2> line_at(const std::array<Vec3, 3>& x, const geometry::Levels<3>& q, Real s) {
   if (s <= q[0]) return {x[0], x[0]};
   if (s >= q[2]) return {x[2], x[2]};

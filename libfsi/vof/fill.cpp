@@ -118,8 +118,8 @@ Sampled<Rule> piece(const Images& distance, const std::array<Vec3, Rule::corners
   return p;
 }
 
-/// What the last division changed: of smooth parts with its sign, as it scatters about zero; of
-/// bent ones its size, as it does not.
+/// The change by the last division: with its sign for smooth parts, where it scatters about zero,
+/// and its size for bent parts, where it does not.
 struct DivisionError {
   Real smooth = 0, bent = 0;
 };

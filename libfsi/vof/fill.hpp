@@ -1,5 +1,5 @@
 #pragma once
-// From a shape to volume fractions: the exact initial state of the interface.
+// The volume fractions of a shape: the initial state of the interface.
 
 #include <vector>
 
@@ -10,28 +10,28 @@
 
 namespace fsi::vof {
 
-/// How finely a cell that the surface cuts is divided.
+/// The accuracy of the division of cells that the surface cuts.
 struct FillAccuracy {
   /// A simplex of the cell is divided until one more division changes its part of the solid by no
   /// more than this, in units of the cell's volume.
   Real tolerance = 1e-5;
-  /// Divisions at least, so that no two coarse estimates agree by chance, and at most: an edge of
-  /// the shape is resolved to the cell size / 2^max_depth.
+  /// The least number of divisions, so that two coarse estimates do not agree by chance, and the
+  /// largest. An edge of the shape is resolved to the cell size / 2^max_depth.
   int min_depth = 1, max_depth = 8;
 };
 
-/// What was filled, over all ranks.
+/// The result of filling, over all ranks.
 struct Filled {
   Real volume = 0;  ///< sum alpha V (area in 2-D)
-  /// Of `volume`: what the last division changed, |sum over cells| + (sum of squares)^(1/2)
-  /// of smooth parts, sum of sizes at sharp edges.
+  /// Error of `volume` by the change in the last division: |sum over cells| + (sum of
+  /// squares)^(1/2) of smooth parts, and the sum of sizes at sharp edges.
   Real estimated_error = 0;
-  /// Least signed distance of the shape at corners and centres of boundary faces but those of
-  /// `mirrors`. It tells how far the solid is from the boundary, and is negative where it sticks
-  /// out of the mesh and `volume` misses a part of it.
+  /// Least signed distance of the shape at corners and centres of boundary faces, without those of
+  /// `mirrors`. It is the distance of the solid from the boundary. It is negative if the solid
+  /// sticks out of the mesh, so that `volume` misses a part of it.
   Real clearance = 0;
-  /// The planes of `mirrors` that cut the solid: the whole solid is what is in the mesh, and its
-  /// images.
+  /// The planes of `mirrors` that cut the solid. The whole solid is its part in the mesh and the
+  /// images of this part.
   CuttingPlanes cut_by{};
 };
 

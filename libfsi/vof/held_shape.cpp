@@ -31,7 +31,8 @@ Distance distance(const shapes::Shape& shape, const Vec3& x, Real value, Real e,
   return result;
 }
 
-/// The least distance over the periods' images, and where: by descent from those of the last point.
+/// The least distance over the periodic images, and the periods of its image: found by descent from
+/// those of the last point.
 Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh& mesh) {
   Real least = shape(xi + laps);
   for (bool nearer = mesh.translation.size() > 1; nearer;) {
@@ -55,7 +56,7 @@ void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& 
     const Real h = cell_size(mesh, c);
     Vec3 xi = mesh.C[c] + map.d[c];
     const Real value = nearest_image(xi, s.laps, map.shape, mesh);
-    // Whole cells on the right side and a cell away from the surface have nothing to change.
+    // Full or empty cells on the right side, a cell away from the surface, need no change.
     constexpr Real near = 2, away = 1.2;  // cells
     const Real whole = value > 0 ? 0 : 1;
     if (std::abs(value) > near * h || (alpha[c] == whole && std::abs(value) > away * h)) continue;
@@ -68,7 +69,8 @@ void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& 
   }
 }
 
-/// change = what the planes, moved outward by shift, ask for; sums: of change V and of area.
+/// Sets `change` to the change by the planes, moved outward by shift. totals: of change V and of
+/// area.
 void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, const Mesh& mesh,
                  Real shift, HoldScratch& s) {
   constexpr Real most = 0.05;
@@ -96,9 +98,9 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
   constexpr int rounds = 20;
   constexpr Real enough = 1e-7;  // of the volume; the rest goes to the cut cells
   constexpr Real left = 1e-5;    // more cannot go there
-  // Newton's method, kept between a shift that gives too little and one that gives too much: where
-  // many cells ask for more than they may get, its steps go to and fro. The change grows with the
-  // shift, so the two are always on their own sides.
+  // Newton's method, bounded by a shift that gives too little and one that gives too much. Its
+  // steps would alternate if the change of many cells is limited. The change grows with the shift,
+  // so both bounds stay valid.
   constexpr Real none = std::numeric_limits<Real>::infinity();
   const Real longest =
       std::pow(volume, Real{1} / mesh.dim) / 8;  // of a step, where the area is small
@@ -118,8 +120,9 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
       break;
     }
   }
-  if (!(std::abs(off) <= left * volume)) return 0;  // no shift does: the map tells no shape
-  std::array<Sum, 2> sums;  // volume added, weight of those who give it back
+  if (!(std::abs(off) <= left * volume))
+    return 0;               // no shift keeps the volume: the map gives no shape
+  std::array<Sum, 2> sums;  // volume added, weight of the cells that give it back
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
     const Real a = alpha[c] + s.change[i];

@@ -1,5 +1,5 @@
 #pragma once
-// The surface where a reference map puts it.
+// The rule that holds alpha to the shape that the map gives.
 
 #include <span>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace fsi::vof {
 
-/// Where the particle of each cell was in the undeformed solid: xi = x + d.
+/// The map of the memory or of the map kinematics, xi = x + xihat, and the undeformed solid.
 struct ShapeMap {
   const shapes::Shape& shape;         ///< the undeformed solid, its signed distance
-  const CellField<Vec3>& d;           ///< xi - x
-  const CellField<Tensor>& gradient;  ///< of d
-  std::span<const Index> cells;       ///< owned, where d is set
-  std::span<const Real> weight;       ///< [cells] in [0, 1]: how far the map is to be relied on
+  const CellField<Vec3>& d;           ///< xihat = xi - x
+  const CellField<Tensor>& gradient;  ///< of xihat
+  std::span<const Index> cells;       ///< owned, where xihat is set
+  std::span<const Real> weight;       ///< [cells] the trust vartheta in the map, 0 to 1
 };
 
 /// Scratch of `hold_shape`; grows with the interface.
@@ -24,25 +24,26 @@ struct HoldScratch {
   /// mesh must outlive it.
   explicit HoldScratch(const Mesh& mesh) : cell(mesh.dim) {}
 
-  std::vector<Index> cells;                ///< near the mapped surface
+  std::vector<Index> cells;                ///< near the surface that the map gives
   std::vector<geometry::Plane> planes;     ///< of that surface, about the cell's centre
-  std::vector<Real> weight, area, change;  ///< beside `cells`
+  std::vector<Real> weight, area, change;  ///< [cells]
   geometry::Polytope cell;                 ///< scratch
-  Vec3 laps;                               ///< periods that the solid went through
+  Vec3 laps;                               ///< periods that the solid has crossed
 };
 
-/// Collective. Moves the fractions toward those of the solid whose surface is where the map puts
-/// it, {x : shape(xi(x)) < shift}. That is a material surface. What carries alpha by the mean
-/// velocity of faces loses it in the course of time. In a cell near it the surface is the plane
+/// Collective. Moves the fractions towards those of the solid that the map gives, {x : shape(xi(x))
+/// < shift}. The surface of that solid is a material one. The advection of alpha uses the mean
+/// velocity of faces, and its surface departs from the material one with time. In a cell near it
+/// the surface is the plane
 ///
-///   s + m . (x - x_c) = shift,   s = (shape(xi_c) + k h^2 / 24) / |g|,   m = g / |g|,
-///   g = (I + grad d)^T . grad shape(xi_c)
+///   l + m . (x - x_c) = shift,   l = (shape(xi_c) + k_s h^2 / 24) / |g|,   m = g / |g|,
+///   g = (grad xi)^T . grad shape(xi_c),   grad xi = I + grad xihat.
 ///
-/// k = div grad shape is the sum of the curvatures; k h^2 / 24 is what they add to the mean of
-/// shape over the cell. The change of a cell is at most a twentieth of it in a call, times its
-/// weight. shift makes the sum of alpha V what it was, to round-off; where none does to 1e-5 of it
-/// nothing is changed. alpha: owned and halo, before and after. Returns the volume that changed
-/// cells, in parts of the solid's; 0: nothing was held.
+/// k_s = div grad shape is the sum of the curvatures, and k_s h^2 / 24 is what they add to the mean
+/// of shape over the cell. In a call alpha changes by at most 0.05 times the weight. The one number
+/// shift keeps the sum of alpha V to rounding. If no shift does so to 1e-5 of it, nothing is
+/// changed. alpha: owned and halo, before and after. Returns the volume that moved, in parts of the
+/// solid's; 0 if nothing was changed.
 Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                 HoldScratch& scratch);
 

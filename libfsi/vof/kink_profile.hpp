@@ -1,5 +1,5 @@
 #pragma once
-// What a kink at the surface adds to the value of a cut cell.
+// The value l_+ that a kink at the surface adds to a cut cell.
 
 #include <vector>
 
@@ -10,13 +10,13 @@
 
 namespace fsi::vof {
 
-/// A velocity u + j max(0, s), s = n . (x - x_S) and u linear, bears a traction mu j n . S that the
-/// faces carry by the part of solid in the prism they sweep (face_fraction). That part is not the
-/// one of the line between the centres. So what balances in a cut cell is u + j phi,
-///   sum_f g (phi_N - phi - (1 - alpha_f) n . d) = 0,    phi_N = max(0, s_N) beside it,
-/// One step from the neighbours' exact values gives phi, with alpha_f by the cell's own plane. It
-/// is max(0, s) where the plane lies along faces, elsewhere off by some hundredths of a cell to
-/// either side.
+/// Let l = n_hat . (x - x_S) be the distance from the surface, positive in the fluid. A velocity u
+/// + j max(0, l), u linear, has a kink with the traction mu j n_hat . S. The faces take this
+/// traction by the part of solid alpha_f in the prism that they sweep (face_fraction), not by the
+/// part on the line between the centres. So a balanced cut cell has u + j l_+, with
+///   sum_f g (max(0, l_N) - l_+ - (1 - alpha_f) n_hat . d) = 0,   l_N that of the cell beyond.
+/// alpha_f follows from the cell's own plane. l_+ is max(0, l) if the plane lies along faces, and
+/// differs from it by some hundredths of a cell otherwise.
 class KinkProfile {
  public:
   /// mesh must outlive it.
@@ -26,9 +26,9 @@ class KinkProfile {
   /// Collective. interface: of this rank's cells.
   void set(const Interface& interface, const FaceWeights& weights);
 
-  CellField<Vec3> normal;      ///< n; zero in cells that are not cut; owned and halo
-  CellField<Real> solid_side;  ///< phi: what j adds by the solid's side; owned and halo
-  CellField<Real> fluid_side;  ///< phi - s: what it adds by the fluid's side; owned and halo
+  CellField<Vec3> normal;      ///< n_hat; zero in cells that are not cut; owned and halo
+  CellField<Real> solid_side;  ///< l_+, for the solid's side; owned and halo
+  CellField<Real> fluid_side;  ///< l_+ - l, for the fluid's side; owned and halo
 
  private:
   const Mesh& mesh_;

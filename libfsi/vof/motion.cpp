@@ -97,7 +97,7 @@ void set_flux(FaceField<Real>& phi, const Motion& motion, const Mesh& mesh) {
 
 Real interface_dt(const CellField<Real>& alpha, const FaceField<Real>& phi, Real courant,
                   const Mesh& mesh) {
-  constexpr Real part = 0.01;  // of a cell that counts as interface: a wisp sets no limit
+  constexpr Real part = 0.01;  // of a cell, from which on it counts as one of the interface
   Real rate = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (alpha[c] <= part || alpha[c] >= 1 - part) continue;

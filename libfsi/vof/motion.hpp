@@ -1,5 +1,5 @@
 #pragma once
-// Known motions that carry an interface: its error is then measurable.
+// Given motions, with which the error of an advected interface is known.
 
 #include <functional>
 #include <string>
@@ -19,7 +19,7 @@ struct Motion {
   Real period = 1;                     ///< time
 };
 
-/// Names of the motions that `motion` knows.
+/// Names of all motions.
 const std::vector<std::string>& motion_names();
 
 /// - vortex: stream function sin^2(pi x) sin^2(pi y) / pi, reversed by cos(pi t / T), T = 8

@@ -11,7 +11,7 @@
 namespace fsi::vof {
 namespace {
 
-// A gradient this small against what it should be has no direction.
+// A gradient this small, over that of a sharp interface, has no direction.
 constexpr Real degenerate = 1e-6;
 
 /// Owned cells with an interface, and all owned cells that touch one.

@@ -1,5 +1,5 @@
 #pragma once
-// The interface as planes: one in every cell that solid and fluid share.
+// The interface as planes, one in each cell that holds both solid and fluid.
 
 #include <cstdint>
 #include <vector>
@@ -26,18 +26,18 @@ struct Interface {
   CellField<Piece> piece;    ///< owned and halo cells
 };
 
-/// When the normals count as settled; the defaults are those of [Scheufler19]. Planes are exact in
-/// the limit of many rounds; where a film is thinner than the stencil more rounds make it worse.
+/// When the rounds for the normals end; the defaults are those of [Scheufler19]. Planes are exact
+/// in the limit of many rounds. If a film is thinner than the stencil, more rounds make them worse.
 struct ReconstructAccuracy {
-  int max_rounds = 5;       ///< rounds at most
-  Real turn = 1e-6;         ///< mean over the interface of 1 - cos of what a round turns them
+  int max_rounds = 5;  ///< rounds at most
+  Real turn = 1e-6;    ///< mean over the interface of 1 - cos of the turn of a normal in a round
   Real turn_of_bend = 0.1;  ///< the same as a part of the mean 1 - cos between neighbours' normals
 };
 
-/// How well the normals settled.
+/// The convergence of the normals.
 struct ReconstructReport {
   int rounds = 0;  ///< of distance and gradient
-  Real turn = 0;   ///< mean over the interface of 1 - cos of what the last round turned
+  Real turn = 0;   ///< mean over the interface of 1 - cos of the turn in the last round
 };
 
 /// Scratch of `reconstruct`, made once; grows with the interface, never shrinks.
@@ -55,12 +55,11 @@ struct ReconstructScratch {
   geometry::Polytope cell;           ///< scratch
 };
 
-/// Collective. plicRDF [Scheufler19]: normals from a least-squares gradient of alpha, then
-/// rounds of: cut the cells, reconstruct the signed distance to the planes around them, take its
-/// gradient for normals. The result depends on alpha alone, not on the steps before; on the number
-/// of ranks by no more than round-off.
-/// alpha: owned and halo set. On return owned cells and halo of `interface` are set; cells whose
-/// gradient vanishes (a lone wisp) have no plane.
+/// Collective. plicRDF [Scheufler19]: normals from a least-squares gradient of alpha, then rounds
+/// of: cut the cells, reconstruct the signed distance to the planes around them, take its gradient
+/// for normals. The result depends on alpha alone, not on the steps before. On the number of ranks
+/// it depends by rounding only. alpha: owned and halo set. On return owned cells and halo of
+/// `interface` are set; cells where the gradient of alpha vanishes have no plane.
 ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
                               ReconstructScratch& scratch,
                               const ReconstructAccuracy& accuracy = {});

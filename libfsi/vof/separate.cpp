@@ -10,7 +10,7 @@
 namespace fsi::vof {
 namespace {
 
-constexpr Real too_much = 1e-12;  // excess that is left alone
+constexpr Real too_much = 1e-12;  // excess that is not moved
 
 Real sum(std::span<const Fractions> bodies, Index c) {
   Real total = 0;
@@ -44,8 +44,8 @@ void Separation::offer(std::span<const Fractions> bodies, Index c) {
       open += r, least = std::min(least, mesh_.V[n]);
     }
     if (open <= 0) continue;
-    // A cell takes of every body from all its faces, six at the most, and is not to overflow; what
-    // it cannot take now stays for the next round.
+    // A cell takes of every body through all its faces, six at most, and must not overflow. What it
+    // cannot take now stays for the next round.
     const Real most = 1 / (6 * static_cast<Real>(bodies.size()));
     const Real given = mesh_.V[c] * (total - 1) * alpha[c] / total;
     rate_[i][c] = std::min(given / open, most * least);

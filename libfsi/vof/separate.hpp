@@ -1,5 +1,5 @@
 #pragma once
-// Cells that several bodies share.
+// Separation of bodies in cells that several of them share.
 
 #include <span>
 #include <vector>
@@ -15,19 +15,20 @@ struct Fractions {
   CellField<Real>* mid = nullptr;    ///< its mean over the step, which takes half of what is moved
 };
 
-/// Moves what is too much of several bodies in a cell to where there is room. Every body is carried
-/// by planes of its own, so where two surfaces pass through a cell their fractions may add up to
-/// more than 1 by the error of the planes.
+/// Moves the excess of several bodies in a cell to cells with room. Each body has planes of its
+/// own. If two surfaces pass through a cell, the fractions may add up to more than 1 by the error
+/// of the planes.
 class Separation {
  public:
   /// bodies: count of solids.
   Separation(const Mesh& mesh, std::size_t bodies);
 
-  /// Collective. In cells where S = sum_i alpha_i > 1 each body gives up the part alpha_i / S of
-  /// the excess to the cells across its faces that hold some of this body. It goes in proportion to
-  /// their room 1 - S, and no more than fills them, in a few rounds at most. What finds no room
-  /// stays, and `overlap` tells how much. The sum of alpha_i V stays to round-off. cells: owned,
-  /// with all those in which two bodies meet, none twice. Returns whether anything moved.
+  /// Collective. In cells where S = sum_i alpha_i > 1, each body gives up the part alpha_i / S of
+  /// the excess S - 1. It goes to the cells across the faces that hold some of this body, in
+  /// proportion to their room 1 - S. It never fills them beyond 1, and there are a few rounds at
+  /// most. The rest stays and is reported by `overlap`. The sum of alpha_i V is kept to rounding.
+  /// cells: owned, all those in which two bodies meet among them, none twice. Returns whether
+  /// anything moved.
   bool apply(std::span<const Fractions> bodies, std::span<const Index> cells);
 
   /// max over all cells of S - 1 that the last call left, at least 0.

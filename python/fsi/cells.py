@@ -6,7 +6,7 @@ Two cells divide the face between them alike, so that surfaces are closed, and n
 import numpy as np
 
 TRIANGLE, QUAD, TET, HEX, PRISM, PYRAMID = 5, 9, 10, 12, 13, 14
-FACES = {  # by corner, seen from outside against the clock
+FACES = {  # by corner, counter-clockwise from outside
     TRIANGLE: [(0, 1), (1, 2), (2, 0)],
     QUAD: [(0, 1), (1, 2), (2, 3), (3, 0)],
     TET: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
@@ -19,8 +19,9 @@ EDGES = {kind: sorted({tuple(sorted((face[i - 1], face[i]))) for face in faces f
 
 
 def distinct(rows):
-    """Of rows of whole numbers from 0 on: where each stands first, in ascending order, which of them each
-    row is, and how often each stands there. numpy's own way along an axis takes many times as long."""
+    """For rows of whole numbers of at least 0: the first place of each distinct row, in ascending order of
+    rows, the index of each row among them, and their counts. numpy.unique along an axis takes many times
+    as long."""
     key = np.zeros(len(rows), np.int64)
     for column in rows.T:
         key = np.unique(key * (column.max(initial=0) + 1) + column, return_inverse=True)[1]

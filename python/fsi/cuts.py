@@ -82,7 +82,7 @@ def cuts_through_solid(snapshots, normal="z"):
 
 
 def best_normal(solid):
-    """The axis from which a solid is best seen, of its table: z; where it goes its way along z, the
-    axis that it travels along least."""
+    """The axis of the best view of a solid, from its table: z, or, if it moves along z, the axis along which
+    it moves least."""
     ways = [np.ptp(solid[name]) if name in solid else 0.0 for name in AXES]
     return "z" if ways[2] <= 0.5 * max(ways) else AXES[int(np.argmin(ways))]

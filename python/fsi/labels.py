@@ -19,7 +19,7 @@ PER_DEPTH = ("volume", "volume / time", "energy", "area", "energy / time")  # in
 SI = {(-1, -2, 1): "Pa", (-2, -2, 1): "Pa/m", (2, -2, 1): "J", (1, -2, 1): "J/m", (2, -3, 1): "W", (1, -3, 1): "W/m"}
 PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
-COLUMNS = {  # of the csv files, beside those that have a panel
+COLUMNS = {  # of the csv files, apart from those with a panel
     "pressure_drop": "pressure", "pressure_span": "pressure", "mean_velocity": "velocity", "work": "energy",
     "dissipation": "energy / time", "volume": "volume", "volume_out": "volume", "area": "area",
     "turned": "degrees", "long_angle": "degrees", "taylor_angle": "degrees", "shape_energy": "energy",
@@ -82,7 +82,7 @@ class Units:
         return f"{words} [{unit}]" if unit else words
 
     def number(self, value, kind, size=None):
-        """A number with its unit; size: of the values that it stands among."""
+        """A number with its unit; size: the size of the values around it."""
         factor, unit = self.prefixed(kind, abs(value) if size is None else size)
         return f"{value * factor:.4g}" + (f" {unit}" if unit else "")
 

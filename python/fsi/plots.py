@@ -12,7 +12,7 @@ from . import labels, runs, sections, style
 
 @dataclass
 class Panel:
-    """What one panel shows. NAME_* stands for all columns that begin so."""
+    """The content of one panel. NAME_* means all columns that begin with NAME_."""
 
     key: str
     title: str
@@ -128,8 +128,8 @@ def is_round(run):
 
 
 def fits(panel, run, dim):
-    """Whether a panel tells something of a run of this kind: a round solid has no axis, and as much
-    flows one way as the other between plates that slide."""
+    """Whether a panel is useful for a run of this kind: a round solid has no axis, and between sliding
+    plates the net flow is zero."""
     return not (panel.key == "angle" and is_round(run) or panel.key == "taylor" and dim == 3 or
                 panel.key == "rate" and run.summary.get("case") == "shear")
 
@@ -165,7 +165,7 @@ def series(run, show=None, units=labels.Units()):
     panels, asked = chosen_panels(show, tables)
     panels = [(panel, lines_of(panel, tables[panel.table], asked)) for panel in panels
               if asked or fits(panel, run, dim)]
-    drawn = {}  # each set of columns once, whatever the words that ask for it
+    drawn = {}  # each set of columns once, under any name
     for panel, lines in panels:
         if lines:
             drawn.setdefault((panel.table, *(name for name, _ in lines)), (panel, lines))

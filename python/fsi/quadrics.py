@@ -62,7 +62,7 @@ def fit(away, weight, at, number):
 
 
 def sums(at, values, number):
-    """For each of so many places the sum of the values [k, c] that stand `at` it [k]."""
+    """For each of `number` places the sum of the values [k, c] whose place is at[k]."""
     return np.stack([np.bincount(at, column, number) for column in values.T], axis=1)
 
 

@@ -13,7 +13,7 @@ import subprocess
 
 import numpy as np
 
-# Lamps: where they stand (to the right, upwards, towards the eye), and how bright they are.
+# Lamps: place (to the right, upwards, towards the eye) and brightness.
 LAMPS = ((np.array([-0.35, 0.45, 0.82]), 1.0), (np.array([0.75, -0.55, 0.37]), 0.45))
 AMBIENT, DIFFUSE, SPECULAR, POWER = 0.38, 0.58, 0.12, 25
 

@@ -171,7 +171,7 @@ class Snapshot:
         return self.data[name]
 
     def at_points(self, name):
-        """A field at the points. What belongs to the solid or the fluid alone is NaN away from it."""
+        """A field at the points. Fields of the solid or of the fluid alone are NaN elsewhere."""
         if name not in self._at_points:
             weights = None
             if name in OF_SOLID:
@@ -185,7 +185,7 @@ class Snapshot:
         return "alpha" in self and bool(self.part_of_solid().max() > 0.5)
 
     def part_of_solid(self, name="alpha"):
-        """The field that tells where a solid is; one that is no number in some cell is an error."""
+        """The volume fraction of a solid; a value that is not a number is an error."""
         lost = np.isnan(self[name]).sum()
         if lost:
             raise ValueError(f"at t = {self.time:.6g} the field {name} is no number in {lost} of "
@@ -208,7 +208,7 @@ class Snapshot:
         return float(self[name] @ self.mesh.volumes)
 
     def bodies(self):
-        """The names of the fields that tell where a solid is, one for each solid."""
+        """The names of the volume fractions, one for each solid."""
         several = sorted(name for name in self.data if name.startswith("alpha_"))
         return several or [name for name in ("alpha",) if name in self.data]
 
@@ -251,7 +251,7 @@ class Run:
         self.items = series(folder)
 
     def failed(self):
-        """Whether the run ended before its end with a reason; a run that goes on has none yet."""
+        """Whether the run ended early with a reason; a run that continues has none yet."""
         return self.summary.get("status") == "failed" and bool(self.summary.get("message"))
 
     @property

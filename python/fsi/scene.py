@@ -1,4 +1,4 @@
-"""What stands in a picture in three dimensions: layers of triangles, and a camera that looks at them."""
+"""Pictures in three dimensions: layers of triangles, and a camera."""
 from dataclasses import dataclass
 
 import matplotlib

@@ -20,7 +20,7 @@ def outline(ax, cut, colour, width=1.8):
     if cut.snapshot.dim == 2:
         segments = surfaces.solid_outline(cut.snapshot)
     else:
-        # In one piece or not: on a section the solid stands where the mesh is.
+        # A section shows the solid inside the mesh, in one piece or not.
         surface = surfaces.solid_surface(cut.snapshot)
         segments = np.concatenate([surfaces.section(surface.moved(shift), cut.normal, cut.level)
                                    for shift in copies(cut.snapshot.mesh)])
@@ -29,7 +29,7 @@ def outline(ax, cut, colour, width=1.8):
 
 
 def copies(mesh):
-    """The shifts by a period that bring back what stands beyond a seam."""
+    """The shifts by a period that bring back parts beyond a periodic boundary."""
     steps = np.array(list(np.ndindex(*np.where(mesh.period > 0, 3, 1)))) - (mesh.period > 0)
     return steps * mesh.period
 

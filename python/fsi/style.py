@@ -1,4 +1,4 @@
-"""The look of all pictures: colours that the colour-blind tell apart, fonts, lines."""
+"""The look of all pictures: colours that colour-blind readers can distinguish, fonts, lines."""
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np

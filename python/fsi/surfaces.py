@@ -179,7 +179,7 @@ def _outline(snapshot, name, rounds):
     along = points[edges[:, 1]] - points[edges[:, 0]]
     normal = np.stack([along[:, 1], -along[:, 0], 0 * along[:, 0]], axis=1)
     inward = np.einsum("ij,ij->i", normal, outward) < 0
-    edges[inward] = edges[inward][:, ::-1]  # the solid stands to the left of each segment
+    edges[inward] = edges[inward][:, ::-1]  # the solid is to the left of each segment
     normal[inward] *= -1
     if (count == 2).all():
         area = 0.5 * np.einsum("ij,ij->", points[edges].mean(axis=1) - points.mean(axis=0), normal)
@@ -229,7 +229,7 @@ def smooth(surface, rounds):
 
 
 def relaxed(places, edges, rounds, fixed=(), shares=(0.5, -0.53)):
-    """Each round moves what stands at the ends of edges towards the mean of its neighbours and back
+    """Each round moves the ends of edges towards the mean of its neighbours and back
     [Taubin95]."""
     free = np.ones((len(places), 1))
     free[np.asarray(fixed, int)] = 0

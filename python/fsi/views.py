@@ -24,7 +24,7 @@ class Look:
     view: str = "auto"  # body: follows it; vessel: all of it; auto: body in a periodic vessel
     normal: str = "z"
     camera: tuple = None  # from where one looks; None: a little aside of the normal
-    relative: bool = False  # streamlines as one sees them who moves with the body
+    relative: bool = False  # streamlines in the frame of the body
     renderer: str = "auto"
     units: labels.Units = field(default_factory=labels.Units)
     ranges: dict = field(default_factory=dict)  # of colours, by field; what is missing fits the data
@@ -140,7 +140,7 @@ def set_behind(layers, body, look, camera):
     A parallel projection shows them where they were, and they hide nothing of the body.
     """
     axis, away = cuts.AXES.index(look.normal), camera.axes()[2]
-    if abs(away[axis]) < 0.1:  # seen from its edge
+    if abs(away[axis]) < 0.1:  # the slice is viewed from its edge
         return
     place = layers[-1].points[:1, axis]
     depth = ((place - body.points[:, axis]) / away[axis]).max(initial=0)
@@ -160,7 +160,7 @@ def _streamlines(snapshot, look, about, box, camera, speed, count=24):
     shifted = places + mesh.period * np.round((box.mean(axis=0) - places) / np.where(
         mesh.period > 0, mesh.period, 1))
     inside = ((shifted > box[0]) & (shifted < box[1])).all(axis=1)
-    if "slice" in look.parts:  # lines behind the slice are not seen
+    if "slice" in look.parts:  # lines behind the slice are hidden
         axis = cuts.AXES.index(look.normal)
         side = np.sign(look.eye()[0][axis])
         inside &= side * (shifted[:, axis] - (box.mean(axis=0) if about is None else about)[axis]) > 0
@@ -225,7 +225,7 @@ def view(run, number=-1, look=None, scale=1):
 
 
 def time_of(run, snapshot, look):
-    """The time, and how much of the solid is inside where a part has left: what is drawn is cut off there."""
+    """The time, and the part of the solid inside the mesh if a part has left, since only that is drawn."""
     left = run.inside(snapshot.time)
     part = "" if left > 0.995 or not snapshot.has_solid() else f", {100 * left:.0f} % inside"
     return f"t = {look.units.number(snapshot.time, 'time')}{part}"
@@ -280,7 +280,7 @@ def over_time(run, look=None, scale=1, most=6):
     carried = () if look.colour == "none" else (look.colour,)
     snapshots = list(run.snapshots(shown))
     bodies = [surfaces.solid_surface(snapshot, carried) for snapshot in snapshots]
-    drawn = [i for i, body in enumerate(bodies) if len(body.points)]  # none is drawn of a speck
+    drawn = [i for i, body in enumerate(bodies) if len(body.points)]  # specks have no surface
     if not drawn:
         return None
     shown, snapshots, bodies = ([some[i] for i in drawn] for some in (shown, snapshots, bodies))

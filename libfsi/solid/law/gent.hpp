@@ -1,5 +1,5 @@
 #pragma once
-// The law of Gent, of a solid whose chains end.
+// The law of Gent, for a solid whose molecular chains have a largest length.
 
 #include "libfsi/core/options.hpp"
 #include "libfsi/solid/law/jet.hpp"
@@ -9,7 +9,7 @@ namespace fsi::solid {
 /// W = -(J_m / 2) ln(1 - (I1 - 3) / J_m) in units of G:                            [Gent96]
 ///   tau = G J_m / (J_m - (I1 - 3)) dev(B),   I1 - 3 < J_m
 struct Gent {
-  static constexpr const char* name = "gent";  ///< word of -solid_law
+  static constexpr const char* name = "gent";  ///< value of -solid_law
   Real limit = 50;                             ///< J_m
 
   /// Reads its parameter, with that beginning of its option.

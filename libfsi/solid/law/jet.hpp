@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that carry their derivatives: an energy written once gives its stress and its stiffness.
+// Numbers that carry their derivatives, so that the energy alone gives stress and stiffness.
 
 #include <cmath>
 
@@ -7,8 +7,8 @@
 
 namespace fsi::solid {
 
-/// A function of two variables up to its second derivatives, exact to round-off: value f, d1 =
-/// df/dx_1, d12 = d2f/dx_1 dx_2 ... Arithmetic, exp, log, log1p, sqrt and pow go on with all six.
+/// A function of two variables up to its second derivatives, exact to rounding: value f, d1 =
+/// df/dx_1, d12 = d2f/dx_1 dx_2 ... Arithmetic, exp, log, log1p, sqrt and pow work on all six.
 struct Jet {
   Real f = 0, d1 = 0, d2 = 0, d11 = 0, d12 = 0, d22 = 0;  ///< value and derivatives
 

@@ -1,5 +1,5 @@
 #pragma once
-// The elastic law of an incompressible isotropic solid: from its energy alone.
+// The elastic law of an incompressible isotropic solid, which follows from its energy alone.
 
 #include <cmath>
 #include <functional>
@@ -13,10 +13,10 @@
 
 namespace fsi::solid {
 
-/// What a law makes of one B, all over G.
+/// The results of a law for one B, all over G.
 struct Response {
   SymTensor T;       ///< tau = G dev(T)
-  Real modulus = 0;  ///< rho c^2 of the fastest shear wave
+  Real modulus = 0;  ///< lambda_B, rho c^2 of the fastest shear wave
   Real W = 0;        ///< energy per volume
   /// Whether B is within the range of the law: W is finite and waves are real.
   bool valid() const { return std::isfinite(W) && std::isfinite(modulus) && modulus > 0; }
@@ -24,28 +24,29 @@ struct Response {
 
 /// With W and its derivatives by I1 = tr B and I2 = tr B^-1                 [Ogden97] 4.3, 6.2
 ///   T = 2 W_1 B - 2 W_2 B^-1
-/// and, for waves along n that move along m, m . n = 0,
-///   rho c^2 = 2 W_1 n.B.n + 2 W_2 m.B^-1.m
-///             + 4 W_11 (m.B.n)^2 - 8 W_12 (m.B.n) (m.B^-1.n) + 4 W_22 (m.B^-1.n)^2.
-/// This is the second derivative of W by e in F -> (I + e m (x) n) F. The modulus is its largest
-/// value with m and n in the plane of the largest and the smallest stretch. It is the largest of
-/// all where W_11, W_12 and W_22 are 0 or more and the solid is stiffest there.
+/// and, for waves along n that are polarised along n_p, n_p . n = 0 (n_perp of
+/// doc/theory/stress.md),
+///   lambda(n, n_p) = 2 W_1 n.B.n + 2 W_2 n_p.B^-1.n_p
+///             + 4 W_11 (n_p.B.n)^2 - 8 W_12 (n_p.B.n) (n_p.B^-1.n) + 4 W_22 (n_p.B^-1.n)^2.
+/// This is the second derivative of W by e in F -> (I + e n_p (x) n) F. The modulus lambda_B is its
+/// largest value with n and n_p in the plane of the largest and the smallest stretch. If W_11, W_12
+/// and W_22 are 0 or more and the solid is stiffest in this plane, it is the largest of all.
 Response response(const Jet& W, const SymTensor& B);
 
 /// B^(1/2); eigenvalues below 1e-6 count as that.
 SymTensor root(const SymTensor& B);
 
-/// A law, from a function energy(I1, I2) that is given and returns Jets: W over the shear modulus G
-/// at rest. neo-Hookean by default. The function is called once a cell, inside loops made for its
-/// type.
+/// A law, made from a function energy(I1, I2) that returns Jets: W over the shear modulus G at
+/// rest. neo-Hookean by default. The function is called once for each cell, inside loops compiled
+/// for its type.
 class Law {
  public:
   Law() : Law(NeoHookean{}) {}
   /// One of this folder.
   template <class Shipped>
   explicit Law(const Shipped& shipped) : Law(Shipped::name, shipped) {}
-  /// A law of your own. Errors: Error{input} where W is not 0 or the shear modulus 2 (W_1 + W_2)
-  /// is not 1 at rest.
+  /// A law of your own. Errors: Error{input} if at rest W is not 0 or the shear modulus 2 (W_1 +
+  /// W_2) is not 1.
   template <class Energy>
   Law(std::string name, const Energy& energy)
       : name_(std::move(name)),
@@ -59,23 +60,24 @@ class Law {
 
   /// Its name.
   const std::string& name() const { return name_; }
-  /// Whether T is B itself and its modulus B's largest eigenvalue: nothing is to be applied.
+  /// Whether T is B itself, and the modulus the largest eigenvalue of B: `apply` is then not
+  /// needed.
   bool B_itself() const { return B_itself_; }
-  /// At one B, det B = 1.
+  /// The results for one B, det B = 1.
   Response at(const SymTensor& B) const { return response_(B); }
 
-  /// What a law works on.
+  /// The fields of a law.
   struct Fields {
     CellField<SymTensor>& T;        ///< on return set on `cells`; zero where B is
     CellField<Real>& modulus;       ///< likewise
-    const CellField<SymTensor>& B;  ///< of a body's cells, zero where there is none
+    const CellField<SymTensor>& B;  ///< of the body's cells, zero elsewhere
     const CellField<Real>& alpha;   ///< fraction of the solid
     std::span<const Index> cells;   ///< where B is set
-    Real own;                       ///< cells with alpha of at least that know their strain
+    Real own;                       ///< the fraction from which on a cell is a known one
   };
-  /// Sets T and modulus. Returns whether B was within the law's range in this rank's cells that
-  /// know their strain. In others, whose B goes on from these, a B beyond the range is replaced by
-  /// the first of B^(1/2), B^(1/4), ... within.
+  /// Sets T and modulus. Returns whether B is within the law's range in this rank's known cells. In
+  /// all other cells a B beyond the range is replaced by the first of B^(1/2), B^(1/4), ... within
+  /// it.
   bool apply(const Fields& fields) const { return apply_(fields); }
 
   /// Collective. Elastic energy, sum G alpha W V; in plane strain B_zz = 1.
@@ -88,7 +90,7 @@ class Law {
   }
 
  private:
-  static constexpr int roots = 50;  // of B: the last is I to round-off
+  static constexpr int roots = 50;  // of B: the last one is I to rounding
 
   void check_at_rest() const;
   template <class Energy>

@@ -10,7 +10,7 @@ namespace fsi::solid {
 ///   tau = G dev((1 - c) B - c B^-1)
 /// G stays the shear modulus at rest. In plane strain I2 = I1: there c changes the pressure alone.
 struct MooneyRivlin {
-  static constexpr const char* name = "mooney_rivlin";  ///< word of -solid_law
+  static constexpr const char* name = "mooney_rivlin";  ///< value of -solid_law
   Real c = 0.2;                                         ///< share of G in the term of I2
 
   /// Reads its parameter, with that beginning of its option.

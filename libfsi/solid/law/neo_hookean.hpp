@@ -8,7 +8,7 @@ namespace fsi::solid {
 
 /// W = (I1 - 3) / 2 in units of G:   tau = G dev(B)                       [Matsumiya25] (8)
 struct NeoHookean {
-  static constexpr const char* name = "neo_hookean";  ///< word of -solid_law
+  static constexpr const char* name = "neo_hookean";  ///< value of -solid_law
   /// It has no parameter.
   void read(Options& /*options*/, const std::string& /*option*/) {}
 
