@@ -74,9 +74,8 @@ class LogConformation {
  private:
   /// Sets L_. In the simplex zone it is that of InterfaceGradient. In other inner cells it is the
   /// gradient without the divergence of the cell velocities (solenoidal.hpp). Other outermost cells
-  /// take the one-sided gradient (one_sided.hpp). In outermost cells L is then bounded by the work
-  /// of the force over dt (work_bound.hpp), unless a traction adds to the force. In cells of the
-  /// zone near walls it is always bounded.
+  /// take the one-sided gradient (one_sided.hpp). In outermost cells, and in all cells of the zone
+  /// near walls, L is then bounded by the work of the force over dt (work_bound.hpp).
   void set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt);
   /// Sets rate_ on known_.core(). Returns the largest rate of log B along particles.
   Real rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad);

@@ -24,7 +24,7 @@ std::string elastic(const Body& body) {
     if (body.strain_by_flux() && body.interface_gradient) what += ", at triangles and tetrahedra ";
     if (body.interface_gradient) what += "a quadratic one-sided fit of L";
     if (body.remembers()) what += ", relaxed towards the memory";
-    if (!body.two_viscosities) what += "; L of outermost cells bounded by the work of the force";
+    what += "; L of outermost cells bounded by the work of the force";
   }
   return what + (body.off_walls ? "; cells at walls extrapolated from inside" : "");
 }
