@@ -43,28 +43,29 @@ struct MomentumTerms {
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
   /// Courant number beyond which kappa takes the convection of triangles and tetrahedra (Courant).
   Real explicit_courant = std::numeric_limits<Real>::max();
-  /// Irregular faces whose L_f is a fit of one side of a surface. `stiff` where there may be such.
+  /// Irregular faces with a one-sided L_f beside a surface. If there may be such faces, `stiff`.
   std::span<const Index> one_sided{};
 };
 
 /// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
-/// Convection is by Adams-Bashforth of third order, the explicit viscous rest by that of second:
+/// Convection is by Adams-Bashforth of third order, the explicit viscous part E by that of second.
+/// With C the compact viscous term,
 ///   rho V w / dt - sum_f (theta_f mu + kappa) g (w_N - w_P)
-///     = -rho AB3(conv) + visc(u^n) - visc((theta_f - 1/2) (dt / dt_old) (u^n - u^(n-1)))
-///       + AB2(rest) + V (-grad p^(n-1/2) + f + S).
+///     = -rho AB3(conv) + C(u^n) - C((theta_f - 1/2) (dt / dt_old) (u^n - u^(n-1)))
+///       + AB2(E) + V (-grad p^(n-1/2) + f + S).
 /// What moves with a body through the mesh changes by Courant numbers in a step. There AB2 is off
 /// by 5/12 Co^2 of a wave's second difference. At Co = 0.5 that is more than half of the 1/6 by
-/// which the linear face value is off. Between Courant numbers of 0.66 and 0.9 AB3 gives way to
-/// AB2.
+/// which the linear face value is off. Between Courant numbers of 0.66 and 0.9 the scheme blends
+/// from AB3 to AB2.
 ///
-/// theta_f = (1 + tan) / 2, at most 1, tan that of the angle between d and Sf. Let rho u_t = -l
-/// (1 + r) u with r l u explicit. The factor z of a step, with l for l dt / rho,
+/// theta_f = (1 + |k| / |S_f|) / 2, at most 1. Let rho u_t = -l (1 + r) u with r l u explicit. The
+/// factor z of a step, with l for l dt / rho,
 ///   (1 + theta l) z^2 - (1 + (2 theta - 3/2) l - 3/2 r l) z + (theta - 1/2 - r / 2) l = 0
-/// stays in the unit circle for any l where r < 2 theta - 1. The term in u^(n-1) keeps it of second
-/// order. The oblique part of a face in `one_sided` may be larger than tan times the compact one:
-/// theta_f is larger by max(0, 1/4 - 1/l), l = dt mu g (1/V_P + 1/V_N) / rho. theta_f is 1 at all
-/// faces where mu_s / mu_f > 2, and in the first steps, without that term: this damps what an
-/// impulsive start leaves.
+/// stays in the unit circle for any l if r < 2 theta - 1. The term in u^(n-1) keeps the scheme of
+/// second order. At a face in `one_sided`, E may be larger than |k| / |S_f| times the compact term.
+/// There theta_f is larger by max(0, 1/4 - 1/l_f), l_f = dt mu g (1/V_P + 1/V_N) / rho. theta_f is
+/// 1 at all faces where mu_s / mu_f > 2. It is 1 in the first steps, too, without the term in
+/// u^(n-1): this damps an impulsive start.
 class Momentum {
  public:
   /// Collective. rho, mu_0: of the fluid; mesh, weights and conditions must outlive it.

@@ -336,8 +336,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With fewer no cell has solid on all sides. In a plane the third axis of an ellipsoid does not
-    // count.
+    // With fewer no cell has solid on all sides. In a plane an ellipsoid has no third axis.
     constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
     const Real through = s.thickness / edges[i];
     if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))

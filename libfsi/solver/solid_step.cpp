@@ -20,7 +20,7 @@ void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, const FlowAround& flo
   mesh.halo.update(L);
 }
 
-/// u = the flow's, with what the fluxes tell on the known ones of the listed cells
+/// u = the flow's; in the known ones of the listed cells utilde, corrected by the fluxes
 /// (solenoidal.hpp); owned and halo.
 void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
                             const FlowAround& flow, std::span<const Index> cells) {
@@ -36,7 +36,7 @@ const solid::InterfaceGradient* one_sided_of(const Body& body) {
   return body.interface_gradient ? &*body.interface_gradient : nullptr;
 }
 
-/// What the flow does to psi or to a map of the body, less what stands at its surface.
+/// The flow that carries psi, the memory or the map kinematics, without the surface's fields.
 solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
                                 const FlowAround& flow) {
   const bool by_flux = body.strain_by_flux();
@@ -231,7 +231,7 @@ void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& bod
     gradient(L, flow.u, flow.u_b, flow.u_stencil, body.mesh, body.band.cells());
     body.mesh.halo.update(L, body.band.listed());
   }
-  // A map is less accurate with less damping where the surface lies in mid-cell.
+  // The map kinematics is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body.kinematics);
   const solid::ElasticTerms terms{
       .lambda = body.lambda,

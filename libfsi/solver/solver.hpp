@@ -218,13 +218,13 @@ class Solver {
   void project(State& state, Real dt);
   void hold_mean_velocity(State& state, Real dt);
   void check(const State& state);
-  /// phi_1 of the mean velocity and the answers of loads are those of the density.
+  /// phi_1 of the mean velocity and the responses to loads belong to this density.
   void renew_responses();
   /// What the calls on bodies read of the flow.
   FlowAround flow_around();
   /// Velocity at the boundary at time t; L and L_f_ of u and it, where they are needed.
   void set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t);
-  /// Between cells whose L is that of one side of the solid's surface L_f_ is its mean.
+  /// Between two cells with a one-sided L beside the surface, L_f_ is the mean of both.
   void take_interface_gradient(const Body& body, const CellField<Tensor>& L);
   /// What may end a step: the equation whose limit is passed, or what was thrown.
   enum class Term {
@@ -263,7 +263,7 @@ class Solver {
     bool stiff = false;                ///< elasticity or convection is partly implicit
     bool implicit_convection = false;  ///< where cells are smaller than those around them
     bool flux_strain = false;          ///< the face flux strains some solid
-    bool one_sided = false;            ///< some solid's L is of one side of its surface
+    bool one_sided = false;            ///< some solid has a one-sided L at its surface
     Real G = 0;                        ///< the largest
     Real rho_least = std::numeric_limits<Real>::max();  ///< of fluid and solids
   };
@@ -279,7 +279,7 @@ class Solver {
   Real courant_rate_max() const;
   /// Collective. That of every owned cell.
   std::vector<Real> courant_rates() const;
-  /// k of bulk_friction.hpp, of the least viscous and the heaviest of fluid and solids.
+  /// kappa_w of bulk_friction.hpp, of the least viscous and the heaviest of fluid and solids.
   Real friction() const;
   Real explicit_courant() const {
     return modes_.implicit_convection ? courant_.explicit_part() : std::numeric_limits<Real>::max();

@@ -110,6 +110,29 @@ TEST(Momentum, SourcesAreTakenAsTheyAre) {
   EXPECT_LT(global_max(worst), 1e-14);
 }
 
+// theta_f is larger by 1/4 - 1/l, l = dt mu g (2 / V) / rho, at the faces that are told, as long as
+// they are told.
+TEST(Momentum, ThetaRisesAtOneSidedFaces) {
+  const Real mu = 0.3, dt = 0.5;
+  Wave wave(mu, 0);
+  const Index f = wave.mesh.n_internal / 2;
+  const std::vector<Index> one_sided{f}, none;
+  const Real l = dt * mu * 2 / (h * h) / rho;
+  ASSERT_GT(l, 4);
+  const auto step = [&](const std::vector<Index>& faces, Real length) {
+    MomentumTerms terms{wave.u_b, wave.u_b,   wave.grad_p, wave.L, wave.L_f,  wave.phi,
+                        wave.mu,  wave.kappa, false,       true,   wave.force};
+    terms.one_sided = faces;
+    wave.momentum.predict(wave.u, terms, length);
+    return wave.momentum.theta_taken()[f];
+  };
+  EXPECT_NEAR(step(one_sided, dt), 1.25 - 1 / l, 1e-12);
+  step(none, dt);
+  EXPECT_NEAR(step(one_sided, dt), 0.75 - 1 / l, 1e-12);
+  EXPECT_EQ(step(none, dt), 0.5);
+  EXPECT_EQ(step(one_sided, 4 * dt / l), 0.5);  // a step that is short for viscosity
+}
+
 // l = mu dt / rho times 4 / h^2, the sum of g / V.
 TEST(Momentum, ThetaRisesWhereViscositySmoothsACell) {
   Wave wave(0.3, 0);
