@@ -94,13 +94,16 @@ def paper_mesh():
 def paper_throat():
     figure, ax = panels(1, 7.2, 3.2)
     table = rows("paper_throat")
-    fine, coarse = ([row for row in table if row[1] == cells] for cells in ("24", "16"))
+    fine = [row for row in table if row[1] == "24"]
     place = np.arange(len(fine))
+    of_body = {row[0]: at for row, at in zip(fine, place)}
     for column, throat, shift in ((2, 6, -0.27), (3, 3, 0), (4, 1, 0.27)):
         ax.bar(place + shift, [first(row[column]) for row in fine], 0.25,
                color=style.LINES[column - 2], label=f"throat {throat}, 24 cells")
-    ax.plot(place - 0.27, [first(row[2]) for row in coarse], "k_", markersize=11,
-            label="throat 6, 16 cells")
+    for cells, mark in (("16", "k_"), ("32", "k+")):
+        others = [row for row in table if row[1] == cells]
+        ax.plot([of_body[row[0]] - 0.27 for row in others], [first(row[2]) for row in others], mark,
+                markersize=11, label=f"throat 6, {cells} cells")
     ax.set_xticks(place, [row[0].replace(" of", "\nof") for row in fine], fontsize=8)
     ax.set_ylabel("flow kept back, at most, %")
     ax.grid(axis="x")
