@@ -150,8 +150,8 @@ void Momentum::hold_old() {
   steps_taken = 0;  // the velocity before the last step is not known
 }
 
-// Central convection has imaginary eigenvalues, up to i Co. There the parabola is stable to 0.72,
-// three quarters of it at 0.72 best (0.91), the line nowhere; with viscosity the line bears more.
+// Central convection has imaginary eigenvalues, up to i Co. There AB3 is stable to 0.72, a blend of
+// three quarters AB3 and one quarter AB2 to 0.78, AB2 nowhere. Viscosity lets AB2 bear more.
 Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) const {
   constexpr Real whole = 0.66, none = 0.9;
   Real part = 0;
