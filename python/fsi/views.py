@@ -181,9 +181,10 @@ def trimmed(line, grid):
     """A line without what sticks out of the mesh at its ends, up to two steps of the grid; a line along a wall,
     where the grid does not tell, stays."""
     inside = np.flatnonzero(grid.inside(line))
-    most = 2 * grid.step.max() / np.linalg.norm(line[1] - line[0])
-    if len(inside) == 0:
+    step = np.linalg.norm(line[1] - line[0])
+    if len(inside) == 0 or step == 0:
         return line
+    most = 2 * grid.step.max() / step
     first, beyond = inside[0], len(line) - 1 - inside[-1]
     return line[first if first <= most else 0:len(line) - (beyond if beyond <= most else 0)]
 
