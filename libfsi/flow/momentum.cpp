@@ -96,7 +96,7 @@ Real Momentum::theta_of(Index f, Real theta_now) const {
 }
 
 void Momentum::raise_theta(const MomentumTerms& terms, Real theta_now, Real dt) {
-  constexpr Real margin = 0.25;  // of what the disc between plates needs, five times
+  constexpr Real margin = 0.25;  // five times what a disc between sliding plates needs
   for (const Index f : raised_) theta_f_[f] = theta_of(f, theta_now);
   raised_.clear();
   for (const Index f : terms.one_sided) {
