@@ -91,8 +91,8 @@ KinematicsKind read_kinematics(Options& options, const std::string& of) {
   const std::string kinematics =
       options.choice(of + "kinematics", "log_conformation",
                      {"log_conformation", "left_cauchy_green", "reference_map"},
-                     "how deformation is tracked: log B, the paper's B~, or the map to where each "
-                     "particle once was");
+                     "what carries the strain: log B, the paper's B~, or the map to the place of "
+                     "each particle in the undeformed solid");
   return kinematics == "left_cauchy_green" ? KinematicsKind::left_cauchy_green
          : kinematics == "reference_map"   ? KinematicsKind::reference_map
                                            : KinematicsKind::log_conformation;
@@ -175,8 +175,8 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.kinematics = read_kinematics(read, of);
   solid.solid.memory = read.flag(
       of + "memory", true,
-      "the run keeps a map to the undeformed solid and holds shape and strain to it; not with "
-      "left_cauchy_green");
+      "log_conformation: carry a map to the undeformed solid too, and hold shape and strain to "
+      "it; reference_map: hold the shape to its map; left_cauchy_green: no effect");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
   solid.solid.by_default = sizes_by_default(read, of, solid.shape_name);
   place(read, of, solid);

@@ -104,7 +104,7 @@ struct Body {
   /// Whether elasticity is implicit in part, which it is not with left_cauchy_green.
   bool semi_implicit() const { return extended(); }
   /// Whether the jump of the pressure is moved with the surface. With the map kinematics it is not:
-  /// there the errors in dt of both partly cancel (doc/verification/torus.md).
+  /// there the errors in dt of both partly cancel.
   bool advects_pressure_jump() const {
     return std::holds_alternative<solid::LogConformation>(kinematics);
   }
