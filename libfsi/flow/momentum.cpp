@@ -23,6 +23,12 @@ ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const
   return boundary;
 }
 
+/// The least of the first dim components.
+Real least(const Vec3& v, Index dim) {
+  const Real xy = std::min(v.x, v.y);
+  return dim == 2 ? xy : std::min(xy, v.z);
+}
+
 }  // namespace
 
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight) {
@@ -102,7 +108,9 @@ void Momentum::raise_theta(const MomentumTerms& terms, Real theta_now, Real dt) 
   for (const Index f : terms.one_sided) {
     if (f >= mesh_.n_internal) continue;
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const Real rho = terms.rho ? std::min((*terms.rho)[P].x, (*terms.rho)[N].x) : rho_;
+    const Real rho =
+        terms.rho ? std::min(least((*terms.rho)[P], mesh_.dim), least((*terms.rho)[N], mesh_.dim))
+                  : rho_;
     const Real l = dt * terms.mu[f] * weights_.g[f] * (1 / mesh_.V[P] + 1 / mesh_.V[N]) / rho;
     if (margin * l <= 1) continue;
     theta_f_[f] = theta_of(f, theta_now) + margin - 1 / l;
