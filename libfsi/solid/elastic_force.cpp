@@ -7,16 +7,16 @@
 namespace fsi::solid {
 namespace {
 
-/// tau . S on boundary face f; on a plane of symmetry only its normal part.
+/// Whether a list has boundary face f.
+bool has(const std::vector<char>* list, const Mesh& mesh, Index f) {
+  return list != nullptr && (*list)[f - mesh.n_internal] != 0;
+}
+
+/// tau . S on boundary face f; on a plane of symmetry and at a film only its normal part.
 Vec3 traction(const SymTensor& tau, const ElasticState& solid, const Mesh& mesh, Index f) {
   const Vec3 S = mesh.Sf[f], t = dot(tau, S);
   const bool mirror = solid.mirror != nullptr && solid.mirror->has(f, mesh);
-  return mirror ? (dot(t, S) / norm2(S)) * S : t;
-}
-
-/// Whether boundary face f is one of an opening.
-bool is_open(const ElasticState& solid, const Mesh& mesh, Index f) {
-  return solid.open != nullptr && (*solid.open)[f - mesh.n_internal] != 0;
+  return mirror || has(solid.film, mesh, f) ? (dot(t, S) / norm2(S)) * S : t;
 }
 
 /// The vector from the centre of P along which T is continued to boundary face f. It leads to the
@@ -51,7 +51,7 @@ void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rh
     const Index P = mesh_.owner[f];
     const Vec3 d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
-      if (is_open(solid, mesh_, f)) continue;
+      if (has(solid.open, mesh_, f)) continue;
       // tau_b = tau_P + grad tau . d
       const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], d);
       force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), solid, mesh_, f);
@@ -82,7 +82,7 @@ void ElasticForce::add_cut_face(CellField<Vec3>& force, FaceField<Real>& rhie_ch
     const Real a_f = (*solid.alpha_f)[f];
     const Vec3 S = mesh_.Sf[f], d = mesh_.d[f], n = d / norm(d);
     if (f >= mesh_.n_internal) {
-      if (is_open(solid, mesh_, f)) continue;
+      if (has(solid.open, mesh_, f)) continue;
       // alpha_b (tau_b - s I) + alpha_P s I,  tau_b = tau_P + grad tau . d
       const SymTensor tau = G_ * dev(T[P] + along(grad[P], to_face(solid, mesh_, f)));
       const Vec3& m = (*solid.normal)[f];

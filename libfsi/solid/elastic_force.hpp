@@ -19,6 +19,7 @@ struct ElasticState {
   const FaceField<Vec3>* normal{};  ///< m of the interface there, zero without one; with alpha_f
   const SymmetryFaces* mirror{};    ///< planes of symmetry, which have no shear stress
   const std::vector<char>* open{};  ///< [n_boundary] 1 on openings, which have no elastic stress
+  const std::vector<char>* film{};  ///< [n_boundary] 1 on walls with a film: no shear stress
 };
 
 /// Force of the elastic stress, and its counterpart c_f in the face flux.
@@ -38,7 +39,8 @@ class ElasticForce {
   /// for skewness.
   ///
   /// At boundaries T continues linearly from inside, or alpha T without alpha_f. An opening has no
-  /// elastic stress: a stress continued there would work on the solid that is still inside. At a
+  /// elastic stress: a stress continued there would work on the solid that is still inside. A wall
+  /// with a film and a plane of symmetry bear its normal part only. At a
   /// plane of symmetry the image of a triangle or tetrahedron counts as its neighbour
   /// (`set_slopes_at_planes`).
   ///

@@ -33,38 +33,6 @@ std::string name_of(const Kinematics& kinematics) {
   return "log_conformation";
 }
 
-OffWalls::OffWalls(const Mesh& mesh, const std::vector<Patch>& walls,
-                   const solid::SimplexZone& zone)
-    : at_wall(mesh), known(mesh), alpha(mesh) {
-  for (const Patch& patch : walls)
-    for (Index f = patch.begin; f < patch.end; ++f)
-      if (zone.has(mesh.owner[f])) at_wall[mesh.owner[f]] = 1;
-  mesh.halo.update(at_wall);
-  const auto is_at = [&](Index n) { return at_wall[n] > 0; };
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    if (is_at(c))
-      at.push_back(c);
-    else if (std::ranges::any_of(mesh.cell_neighbours[c], is_at))
-      beside.push_back(c);
-}
-
-void OffWalls::set(const CellField<Real>& fraction, const Mesh& mesh) {
-  const auto of_solid = [&](Index c) { return fraction[c] >= solid::alpha_known; };
-  alpha.assign(fraction);
-  // A cell is known only if a face neighbour has alpha of at least 1/2 too (Extension).
-  for (const Index c : beside)
-    known[c] = of_solid(c) && std::ranges::any_of(mesh.cell_faces[c], [&](Index f) {
-                 const Index n = beyond(mesh, f, c);
-                 return n >= 0 && at_wall[n] == 0 && of_solid(n);
-               });
-  mesh.halo.update(known);
-  for (const Index c : at)
-    if (of_solid(c) &&
-        std::ranges::any_of(mesh.cell_neighbours[c], [&](Index n) { return known[n] > 0; }))
-      alpha[c] = 0;
-  mesh.halo.update(alpha);
-}
-
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
            const Physics& physics, const std::vector<Patch>& mirrors,
            const std::vector<Patch>& walls)
@@ -99,7 +67,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       mirror{mirrors.empty() ? std::vector<char>{} : on_faces(mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
-  if (extended() && mesh.dim == 3 && zone.any()) off_walls.emplace(mesh, walls, zone);
+  vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
+  if (extended()) make_film(walls);
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,
@@ -108,6 +77,15 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
+}
+
+void Body::make_film(const std::vector<Patch>& walls) {
+  BoundaryField<char> bonded(mesh);
+  for (const Patch& patch : walls)
+    for (Index f = patch.begin; f < patch.end; ++f)
+      bonded[f - mesh.n_internal] =
+          alpha[mesh.owner[f]] >= solid::alpha_known && vof::touches(f, alpha, interface, mesh);
+  film.emplace(mesh, walls, bonded);
 }
 
 void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
@@ -238,7 +216,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (off_walls) off_walls->set(fraction_of_strain(), mesh);
+  if (film) film->set(fraction_of_strain());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   if (remembers()) memory->resume(fraction_of_memory(), grad);
   update_B();

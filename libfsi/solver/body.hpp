@@ -17,6 +17,7 @@
 #include "libfsi/solid/reference_map.hpp"
 #include "libfsi/solid/semi_implicit.hpp"
 #include "libfsi/solid/surface_traction.hpp"
+#include "libfsi/solid/wall_film.hpp"
 #include "libfsi/solver/physics.hpp"
 #include "libfsi/vof/advect.hpp"
 #include "libfsi/vof/face_fraction.hpp"
@@ -48,22 +49,6 @@ struct TwoViscosities {
   CellField<Real> height;           ///< of the cell's centre above the surface
 };
 
-/// The rule of walls of three-dimensional meshes with tetrahedra (doc/theory/simplices.md): the
-/// fraction without cells at a wall, which count as unknown. A film of fluid between solid and wall
-/// may be thinner than such a cell. The wall fixes the velocity on one side of the cell only, and
-/// the gradient of the velocity strains it the wrong way. At the edge of a flow divider this would
-/// crush a solid that is pressed on it.
-struct OffWalls {
-  /// Collective. walls: their patches; only cells of the simplex zone count. mesh must outlive it.
-  OffWalls(const Mesh& mesh, const std::vector<Patch>& walls, const solid::SimplexZone& zone);
-  /// Collective. Sets `alpha` from that of the solid.
-  void set(const CellField<Real>& fraction, const Mesh& mesh);
-  CellField<Real> at_wall;        ///< 1 in cells of the zone with a face on a wall; owned and halo
-  CellField<Real> known;          ///< 1 in known cells off the walls, in the list `beside`
-  CellField<Real> alpha;          ///< 0 in cells at a wall that count as unknown
-  std::vector<Index> at, beside;  ///< owned: at a wall, and off walls with a vertex of such a cell
-};
-
 /// A solid.
 struct Body {
   /// Collective. Fills the undeformed shape. mirrors: planes of symmetry, which may cut it; walls:
@@ -82,6 +67,8 @@ struct Body {
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight need.
   void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
+  /// Collective. Makes `film`; the planes of alpha must be those of the undeformed solid.
+  void make_film(const std::vector<Patch>& walls);
   /// Collective. Sets anew what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -125,14 +112,14 @@ struct Body {
   /// The fraction that decides which cells are known. On meshes that are not of triangles or
   /// tetrahedra alone it is alpha_mid, at the time of the velocity. A cell that the surface reaches
   /// in the second half of the step has the fluid's velocity, and its L an error of (Co / 2) times
-  /// the jump. On tetrahedra cells at a wall are left out (OffWalls).
+  /// the jump. Cells at a film between solid and wall are left out (WallFilm).
   const CellField<Real>& strain_fraction() const {
-    return off_walls ? off_walls->alpha : fraction_of_strain();
+    return film ? film->fraction() : fraction_of_strain();
   }
-  /// The same with the cells at walls.
+  /// The same with the cells at films.
   const CellField<Real>& fraction_of_strain() const { return strain_by_flux() ? alpha_mid : alpha; }
-  /// The fraction that decides which cells carry the memory; on tetrahedra without cells at walls.
-  const CellField<Real>& fraction_of_memory() const { return off_walls ? off_walls->alpha : alpha; }
+  /// The fraction that decides which cells carry the memory; without cells at films.
+  const CellField<Real>& fraction_of_memory() const { return film ? film->fraction() : alpha; }
   /// Whether B is set in cells around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);
@@ -191,7 +178,7 @@ struct Body {
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
-  std::optional<OffWalls> off_walls;                       ///< on tetrahedra
+  std::optional<solid::WallFilm> film;                     ///< between the solid and walls
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;

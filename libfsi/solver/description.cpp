@@ -26,7 +26,7 @@ std::string elastic(const Body& body) {
     if (body.remembers()) what += ", relaxed towards the memory";
     what += "; L of outermost cells bounded by the work of the force";
   }
-  return what + (body.off_walls ? "; cells at walls extrapolated from inside" : "");
+  return what + (body.film ? "; cells at a film on a wall extrapolated from inside" : "");
 }
 
 std::string force(const Body& body) {

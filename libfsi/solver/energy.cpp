@@ -13,7 +13,7 @@ namespace {
 
 /// The elastic energy of an undeformed solid is not 0 but the rounding of (tr B - 3) G / 2 in each
 /// cell: some eps G V that vary with every step.
-constexpr Real rounding = 100 * std::numeric_limits<Real>::epsilon();  // of sum_i G_i V_i
+constexpr Real energy_rounding = 100 * std::numeric_limits<Real>::epsilon();  // of sum_i G_i V_i
 
 /// If a force is a gradient, the pressure balances it and nothing moves. A small part of it stays
 /// in cells at walls and where two densities meet, and varies. So energies count only beyond the
@@ -55,7 +55,8 @@ void EnergyBalance::set_power_and_stored(const Solver& solver) {
   power_ = totals[0], stored_ = totals[1];
   const Real length = std::pow(solver.mesh().total_volume, Real{1} / solver.mesh().dim);
   resolved_ = borne * totals[2] * length;
-  for (const Body& body : solver.bodies()) resolved_ += rounding * body.G * body.filled.volume;
+  for (const Body& body : solver.bodies())
+    resolved_ += energy_rounding * body.G * body.filled.volume;
 }
 
 void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
@@ -76,7 +77,7 @@ void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
       if (open || slips) continue;
       sum.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
       for (const Body& body : solver.bodies())
-        if (body.alpha[P] > 0)
+        if (body.alpha[P] > 0 && !(body.film && body.film->faces()[b] != 0))
           sum.add(body.alpha_f[f] * body.G * dot(dot(dev(body.T()[P]), mesh.Sf[f]), u));
     }
   }

@@ -134,7 +134,7 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
-  if (body.off_walls) body.off_walls->set(body.fraction_of_strain(), body.mesh);
+  if (body.film) body.film->set(body.fraction_of_strain());
   map.mark(body.fraction_of_memory());
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
@@ -152,7 +152,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   auto& one_sided = body.interface_gradient;
   const bool by_flux = body.strain_by_flux();
   const CellField<Real>& fraction = body.fraction_of_strain();
-  if (body.off_walls) body.off_walls->set(fraction, body.mesh);
+  if (body.film) body.film->set(fraction);
   const solid::Contact contact{flow.u_b, body.touched};
   const solid::CutFaces cuts{body.alpha_f, body.normal_f, fraction};
   solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
@@ -204,9 +204,13 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
 
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow) {
-  const solid::ElasticState elastic{
-      body.T(),       body.alpha,   body.extended() ? &body.alpha_f : nullptr,
-      &body.normal_f, &body.mirror, &flow.open};
+  const solid::ElasticState elastic{.T = body.T(),
+                                    .alpha = body.alpha,
+                                    .alpha_f = body.extended() ? &body.alpha_f : nullptr,
+                                    .normal = &body.normal_f,
+                                    .mirror = &body.mirror,
+                                    .open = &flow.open,
+                                    .film = body.film ? &body.film->faces() : nullptr};
   body.elastic_force.apply(force, rhie_chow_source, elastic, body.weights, flow.pressure, body.band,
                            body.grad);
   if (body.two_viscosities) {

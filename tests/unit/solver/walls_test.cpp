@@ -109,22 +109,34 @@ TEST(Walls, AreTouchedByTheSolidAtThem) {
   EXPECT_GT(touched, 0);
 }
 
-// A layer on the floor of tetrahedra: two cells thick, those at the floor leave their strain to the
-// ones above; thinner, they are all that knows it and keep it.
+// A layer on the floor that has come there: two cells thick, those at the floor leave their strain
+// to the ones above; thinner, they are all that knows it and keep it. A layer that is bonded keeps
+// it too.
 TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
   constexpr Index n = 6;
-  const Mesh mesh = test::read_box(
-      {.n = {n, n, n}, .simplex = true, .periodic = {"left", "right", "back", "front"}});
-  CellField<Real> alpha(mesh);
-  const solid::SimplexZone zone(mesh);
-  OffWalls off(mesh, {mesh.patch("bottom")}, zone);
-  for (const bool thick : {true, false}) {
-    const auto solid = [&](Index c) { return mesh.C[c].y < (thick ? 2.0 : 0.5) / n; };
+  struct Layer {
+    Real height;  // in cells
+    bool bonded, simplex;
+  };
+  for (const Layer layer :
+       {Layer{2, false, true}, Layer{2, false, false}, Layer{0.5, false, true},
+        Layer{0.5, false, false}, Layer{2, true, true}, Layer{2, true, false}}) {
+    const Mesh mesh = test::read_box(
+        {.n = {n, n, n}, .simplex = layer.simplex, .periodic = {"left", "right", "back", "front"}});
+    CellField<Real> alpha(mesh);
+    BoundaryField<char> bonded(mesh);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+      bonded[f - mesh.n_internal] = layer.bonded && mesh.Cf[f].y < 1e-9;
+    solid::WallFilm film(mesh, {mesh.patch("bottom")}, bonded);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+      EXPECT_EQ(film.faces()[static_cast<std::size_t>(f - mesh.n_internal)] != 0,
+                mesh.Cf[f].y < 1e-9 && !layer.bonded);
+    const auto solid = [&](Index c) { return mesh.C[c].y < layer.height / n; };
     for (Index c = 0; c < mesh.n_cells; ++c) alpha[c] = solid(c) ? 1 : 0;
-    off.set(alpha, mesh);
+    film.set(alpha);
     for (Index c = 0; c < mesh.n_owned; ++c) {
-      const bool left = thick && off.at_wall[c] > 0;
-      EXPECT_EQ(off.alpha[c], solid(c) && !left ? 1 : 0) << mesh.C[c].y * n;
+      const bool left = layer.height > 1 && film.at_film(c);
+      EXPECT_EQ(film.fraction()[c], solid(c) && !left ? 1 : 0) << mesh.C[c].y * n;
     }
   }
 }

@@ -1,0 +1,54 @@
+#include "libfsi/solid/wall_film.hpp"
+
+#include <algorithm>
+
+#include "libfsi/operators/stencil.hpp"
+#include "libfsi/solid/extension.hpp"
+
+namespace fsi::solid {
+
+WallFilm::WallFilm(const Mesh& mesh, const std::vector<Patch>& walls,
+                   const BoundaryField<char>& bonded)
+    : mesh_(mesh),
+      at_film_(mesh),
+      known_(mesh),
+      fraction_(mesh),
+      faces_(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+  CellField<Real> held(mesh);
+  for (const Patch& patch : walls)
+    for (Index f = patch.begin; f < patch.end; ++f) {
+      at_film_[mesh.owner[f]] = 1;
+      if (bonded[f - mesh.n_internal] != 0) held[mesh.owner[f]] = 1;
+    }
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (held[c] > 0) at_film_[c] = 0;
+  mesh.halo.update(at_film_);
+  for (const Patch& patch : walls)
+    for (Index f = patch.begin; f < patch.end; ++f)
+      if (at_film(mesh.owner[f])) faces_[f - mesh.n_internal] = 1;
+  const auto is_at = [&](Index n) { return at_film(n); };
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (is_at(c))
+      at_.push_back(c);
+    else if (std::ranges::any_of(mesh.cell_neighbours[c], is_at))
+      beside_.push_back(c);
+}
+
+void WallFilm::set(const CellField<Real>& fraction) {
+  const auto of_solid = [&](Index c) { return fraction[c] >= alpha_known; };
+  fraction_.assign(fraction);
+  // A cell is known only if a face neighbour has alpha of at least 1/2 too (Extension).
+  for (const Index c : beside_)
+    known_[c] = of_solid(c) && std::ranges::any_of(mesh_.cell_faces[c], [&](Index f) {
+                  const Index n = beyond(mesh_, f, c);
+                  return n >= 0 && !at_film(n) && of_solid(n);
+                });
+  mesh_.halo.update(known_);
+  for (const Index c : at_)
+    if (of_solid(c) &&
+        std::ranges::any_of(mesh_.cell_neighbours[c], [&](Index n) { return known_[n] > 0; }))
+      fraction_[c] = 0;
+  mesh_.halo.update(fraction_);
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,43 @@
+#pragma once
+// The film of fluid between a solid and a wall that it comes to.
+
+#include <vector>
+
+#include "libfsi/field/field.hpp"
+#include "libfsi/mesh/mesh.hpp"
+
+namespace fsi::solid {
+
+/// The rule of films (doc/theory/walls.md). A solid that comes to a wall has a film of fluid
+/// between them, which may be thinner than a cell. The wall fixes the velocity on one side of the
+/// film only, so the gradient of the velocity in a cell at the wall strains the solid the wrong
+/// way. Such a cell counts as unknown, and its faces on the wall have no shear stress of the solid.
+/// A solid that touches a wall at the start is bonded to it there, and the rule does not apply.
+class WallFilm {
+ public:
+  /// Collective. walls: their patches. bonded: [n_boundary] 1 on faces of owned cells that the
+  /// undeformed solid touches. mesh must outlive it.
+  WallFilm(const Mesh& mesh, const std::vector<Patch>& walls, const BoundaryField<char>& bonded);
+
+  /// Collective. Sets `fraction` from the fraction of the solid, owned and halo. A cell at a film
+  /// is left out if the cells farther in can tell its strain: a vertex neighbour off the films is
+  /// known, and so is a face neighbour of that one.
+  void set(const CellField<Real>& fraction);
+
+  /// The fraction of the solid without the cells that are left out; owned and halo.
+  const CellField<Real>& fraction() const { return fraction_; }
+  /// [n_boundary] 1 on faces with a film.
+  const std::vector<char>& faces() const { return faces_; }
+  /// Whether owned or halo cell c has a face with a film.
+  bool at_film(Index c) const { return at_film_[c] > 0; }
+
+ private:
+  const Mesh& mesh_;
+  CellField<Real> at_film_;         // 1 in cells with a film; owned and halo
+  CellField<Real> known_;           // 1 in known cells of beside_ that tell the strain
+  CellField<Real> fraction_;        // of the solid, without the cells left out
+  std::vector<char> faces_;         // [n_boundary]
+  std::vector<Index> at_, beside_;  // owned: with a film, and others with a vertex of such a cell
+};
+
+}  // namespace fsi::solid
