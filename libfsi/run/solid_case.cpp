@@ -173,6 +173,12 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   Options& read = none && !options.help() ? aside : options;
   read_material(read, of, physics, solid.solid);
   solid.solid.kinematics = read_kinematics(read, of);
+  solid.solid.film_thickness = read.real(
+      of + "film_thickness", 0,
+      {.help = "least thickness of the film of fluid between the solid and a wall, for the "
+               "friction in it; 0: half a cell; left_cauchy_green: no effect",
+       .unit = "length",
+       .min = 0});
   solid.solid.memory = read.flag(
       of + "memory", true,
       "log_conformation: carry a map to the undeformed solid too, and hold shape and strain to "

@@ -59,7 +59,9 @@ SymTensor LogConformation::isochoric(SymTensor p) const {
 }
 
 void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt) {
-  const auto known = [&](Index c) { return alpha[c] >= alpha_known; };
+  // Cells with a film have no psi of their own, but they move with the solid.
+  const CellField<Real>& moving = snapshot.cuts ? snapshot.cuts->alpha : alpha;
+  const auto known = [&](Index c) { return moving[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   const auto u_at = [&](Index f) -> const Vec3* {
     const Index b = f - mesh_.n_internal;

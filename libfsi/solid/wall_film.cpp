@@ -51,4 +51,15 @@ void WallFilm::set(const CellField<Real>& fraction) {
   mesh_.halo.update(fraction_);
 }
 
+void WallFilm::set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
+                             const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const {
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
+    if (faces_[f - mesh_.n_internal] == 0 || alpha[mesh_.owner[f]] <= 0) continue;
+    mu[f] = mu_f;
+    if (thickness <= 0) continue;
+    const Real d = dot(mesh_.d[f], mesh_.Sf[f]) / norm(mesh_.Sf[f]);
+    mu[f] /= std::max(1 - alpha_f[f], thickness / d);
+  }
+}
+
 }  // namespace fsi::solid

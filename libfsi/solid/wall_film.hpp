@@ -24,6 +24,14 @@ class WallFilm {
   /// known, and so is a face neighbour of that one.
   void set(const CellField<Real>& fraction);
 
+  /// Sets mu of the faces with a film that have solid in their cell. Let d be the distance of the
+  /// cell's centre from the wall, and (1 - alpha_f) d that of the surface. The fluid between them
+  /// bears u_wall - u_c:
+  ///   mu = mu_f / max(1 - alpha_f, thickness / d).
+  /// Without a thickness (0) mu = mu_f, as if the film were half a cell thick.
+  void set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
+                     const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const;
+
   /// The fraction of the solid without the cells that are left out; owned and halo.
   const CellField<Real>& fraction() const { return fraction_; }
   /// [n_boundary] 1 on faces with a film.

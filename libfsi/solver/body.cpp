@@ -69,6 +69,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   if (extended()) make_film(walls);
+  film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,

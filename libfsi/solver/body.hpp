@@ -179,6 +179,7 @@ struct Body {
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< between the solid and walls
+  Real film_thickness = 0;                                 ///< least; 0: half a cell
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;

@@ -87,6 +87,9 @@ std::vector<std::string> Solver::describe_step() const {
   });
   const std::string implicit =
       with_convection(solids(&OfBody::implicit), modes_.implicit_convection);
+  std::string viscosity = where(modes_.mu_varies, "mu of fluid and solids by alpha");
+  if (modes_.films)
+    viscosity += std::string(viscosity.empty() ? "" : "; ") + "that of the film at walls";
   const std::array<std::pair<const char*, std::string>, 18> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},
@@ -98,7 +101,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"set_velocity_gradient", needs_L() ? "grad u in all cells" : "u at the boundary"},
       {"transport_memory", solids(&OfBody::memory)},
       {"transport_elastic", solids(&OfBody::elastic)},
-      {"mix_viscosity", where(modes_.mu_varies, "mu of fluid and solids by alpha")},
+      {"mix_viscosity", viscosity},
       {"mix_density", where(heavy_.has_value(), "rho of fluid and solids, new pressure matrix")},
       {"add_elastic_force", solids(&OfBody::force)},
       {"add_semi_implicit", implicit},

@@ -94,6 +94,8 @@ void Solver::set_modes(const Body& body) {
   modes_.one_sided = modes_.one_sided || body.interface_gradient;
   modes_.G = std::max(modes_.G, body.G);
   modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});
+  modes_.films =
+      modes_.films || (body.film && (body.film_thickness > 0 || body.mu != physics_.mu_f));
   if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
   if (body.mu != physics_.mu_f) {
     modes_.mu_varies = true;

@@ -186,20 +186,25 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
 
 void Solver::mix_viscosity(FaceField<Real>& mu) {
   const Profile::Call call(profile_, calls_.mix_viscosity);
-  if (!modes_.mu_varies) return;
-  if (bodies_.size() == 1) {
+  if (modes_.mu_varies && bodies_.size() == 1) {
     const Body& body = bodies_.front();
     flow::mixture_viscosity(mu, body.alpha, physics_.mu_f, body.mu, weights_, mesh_);
-    return;
+  } else if (modes_.mu_varies) {
+    // mu = mu_f + sum_i (mu_i - mu_f) alpha_i / max(1, sum_j alpha_j)
+    for (Index c = 0; c < mesh_.n_cells; ++c) {
+      Real sum = 0, excess = 0;
+      for (const Body& body : bodies_)
+        sum += body.alpha[c], excess += (body.mu - physics_.mu_f) * body.alpha[c];
+      (*mixed_mu_)[c] = excess / std::max(Real{1}, sum);
+    }
+    flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
   }
-  // mu = mu_f + sum_i (mu_i - mu_f) alpha_i / max(1, sum_j alpha_j)
-  for (Index c = 0; c < mesh_.n_cells; ++c) {
-    Real sum = 0, excess = 0;
-    for (const Body& body : bodies_)
-      sum += body.alpha[c], excess += (body.mu - physics_.mu_f) * body.alpha[c];
-    (*mixed_mu_)[c] = excess / std::max(Real{1}, sum);
-  }
-  flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
+  if (!modes_.films) return;
+  if (!modes_.mu_varies)
+    std::fill(mu.data() + mesh_.n_internal, mu.data() + mesh_.n_faces, physics_.mu_f);
+  for (const Body& body : bodies_)
+    if (body.film)
+      body.film->set_viscosity(mu, body.alpha, body.alpha_f, physics_.mu_f, body.film_thickness);
 }
 
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,

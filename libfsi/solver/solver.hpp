@@ -260,6 +260,7 @@ class Solver {
   /// What the bodies ask of a step, set as they are put in.
   struct Modes {
     bool mu_varies = false;            ///< some solid's viscosity is not the fluid's
+    bool films = false;                ///< mu at walls depends on the films of the solids
     bool stiff = false;                ///< elasticity or convection is partly implicit
     bool implicit_convection = false;  ///< where cells are smaller than those around them
     bool flux_strain = false;          ///< the face flux strains some solid

@@ -141,5 +141,23 @@ TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
   }
 }
 
+// A film that is a fifth of the way from the wall to the centre of its cell, and one that is asked
+// for.
+TEST(Walls, FilmsBearTheVelocityAcrossThem) {
+  const Mesh mesh = test::read_box({.n = {4, 4, 0}});
+  BoundaryField<char> bonded(mesh);
+  const solid::WallFilm film(mesh, {mesh.patch("bottom")}, bonded);
+  CellField<Real> alpha(mesh);
+  FaceField<Real> alpha_f(mesh), mu(mesh);
+  alpha.fill(0.9), alpha_f.fill(0.8), mu.fill(7);
+  const Real d = 0.5 / 4, mu_f = 2;
+  for (const Real thickness : {Real{0}, 0.1 * d, 0.5 * d, 2 * d}) {
+    film.set_viscosity(mu, alpha, alpha_f, mu_f, thickness);
+    const Real between = thickness > 0 ? std::max(0.2 * d, thickness) : d;
+    for (Index f = 0; f < mesh.n_faces; ++f)
+      EXPECT_NEAR(mu[f], mesh.Cf[f].y < 1e-9 ? mu_f * d / between : 7, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace fsi
