@@ -176,7 +176,7 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.film_thickness = read.real(
       of + "film_thickness", 0,
       {.help = "least thickness of the film of fluid between the solid and a wall, for the "
-               "friction in it; 0: half a cell; left_cauchy_green: no effect",
+               "friction in it; 0: half a cell; log_conformation alone",
        .unit = "length",
        .min = 0});
   solid.solid.memory = read.flag(

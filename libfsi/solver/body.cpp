@@ -68,7 +68,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (extended()) make_film(walls);
+  if (solid.kinematics == KinematicsKind::log_conformation) make_film(walls);
   film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {

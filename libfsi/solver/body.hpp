@@ -178,7 +178,7 @@ struct Body {
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
-  std::optional<solid::WallFilm> film;                     ///< between the solid and walls
+  std::optional<solid::WallFilm> film;                     ///< with log_conformation
   Real film_thickness = 0;                                 ///< least; 0: half a cell
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
