@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
 
@@ -53,13 +54,22 @@ void WallFilm::set(const CellField<Real>& fraction) {
 
 void WallFilm::set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
                              const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const {
+  constexpr Real wisp = 1e-9;  // around less solid alpha_f is not set
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
-    if (faces_[f - mesh_.n_internal] == 0 || alpha[mesh_.owner[f]] <= 0) continue;
+    if (faces_[f - mesh_.n_internal] == 0 || alpha[mesh_.owner[f]] < wisp) continue;
     mu[f] = mu_f;
     if (thickness <= 0) continue;
-    const Real d = dot(mesh_.d[f], mesh_.Sf[f]) / norm(mesh_.Sf[f]);
-    mu[f] /= std::max(1 - alpha_f[f], thickness / d);
+    mu[f] /= std::max(1 - alpha_f[f], thickness / depth(f));
   }
+}
+
+Real WallFilm::depth(Index f) const { return dot(mesh_.d[f], mesh_.Sf[f]) / norm(mesh_.Sf[f]); }
+
+Real WallFilm::largest_depth() const {
+  Real largest = 0;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (faces_[f - mesh_.n_internal] != 0) largest = std::max(largest, depth(f));
+  return global_max(largest);
 }
 
 }  // namespace fsi::solid

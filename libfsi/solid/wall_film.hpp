@@ -32,6 +32,9 @@ class WallFilm {
   void set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
                      const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const;
 
+  /// Collective. The largest distance of a cell's centre from its face with a film; 0: no film.
+  Real largest_depth() const;
+
   /// The fraction of the solid without the cells that are left out; owned and halo.
   const CellField<Real>& fraction() const { return fraction_; }
   /// [n_boundary] 1 on faces with a film.
@@ -40,6 +43,9 @@ class WallFilm {
   bool at_film(Index c) const { return at_film_[c] > 0; }
 
  private:
+  /// Distance of the cell's centre from boundary face f.
+  Real depth(Index f) const;
+
   const Mesh& mesh_;
   CellField<Real> at_film_;         // 1 in cells with a film; owned and halo
   CellField<Real> known_;           // 1 in known cells of beside_ that tell the strain

@@ -5,7 +5,6 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/operators/stencil.hpp"
 
 namespace fsi {
 namespace {
@@ -68,7 +67,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (solid.kinematics == KinematicsKind::log_conformation) make_film(walls);
+  if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty()) make_film(walls);
   film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
@@ -217,9 +216,10 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
+  if (film) film->set(alpha);
+  if (remembers()) memory->resume(fraction_of_memory(), grad);
   if (film) film->set(fraction_of_strain());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
-  if (remembers()) memory->resume(fraction_of_memory(), grad);
   update_B();
 }
 

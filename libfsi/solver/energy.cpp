@@ -76,9 +76,14 @@ void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
       sum.add(-(p + rho / 2 * norm2(u)) * phi);
       if (open || slips) continue;
       sum.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
-      for (const Body& body : solver.bodies())
-        if (body.alpha[P] > 0 && !(body.film && body.film->faces()[b] != 0))
-          sum.add(body.alpha_f[f] * body.G * dot(dot(dev(body.T()[P]), mesh.Sf[f]), u));
+      for (const Body& body : solver.bodies()) {
+        if (body.alpha[P] <= 0) continue;
+        const Vec3& S = mesh.Sf[f];
+        Vec3 traction = dot(dev(body.T()[P]), S);
+        if (body.film && body.film->faces()[static_cast<std::size_t>(b)] != 0)
+          traction = (dot(traction, S) / norm2(S)) * S;
+        sum.add(body.alpha_f[f] * body.G * dot(traction, u));
+      }
     }
   }
 }

@@ -31,8 +31,8 @@ struct Solid {
   /// log_conformation: whether the memory is carried in addition to psi, and holds the shape. The
   /// map kinematics: whether its map holds the shape.
   bool memory = true;
-  /// Least thickness of the film of fluid between this solid and a wall, for the friction in it; 0:
-  /// half a cell (solid/wall_film.hpp).
+  /// log_conformation: least thickness of the film of fluid between this solid and a wall, for the
+  /// friction in it; 0: half a cell (solid/wall_film.hpp).
   Real film_thickness = 0;
   /// Sizes by default, in words, for the message that the solid does not fit.
   std::string by_default{};

@@ -134,7 +134,7 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
-  if (body.film) body.film->set(body.fraction_of_strain());
+  if (body.film) body.film->set(body.alpha);
   map.mark(body.fraction_of_memory());
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
   const solid::FlowSnapshot snapshot{.phi = flow.phi,
