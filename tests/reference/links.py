@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every relative link of README.md and doc/ leads to a file, and to a heading where it names one.
+"""Every relative link of README.md and doc/ leads to a file, and to a heading where it names one. No
+page holds the marks of a merge that was not finished.
 
     links.py SOURCE
 """
@@ -11,6 +12,7 @@ import sys
 import prose
 
 LINK = re.compile(r"\[[^\]]*\]\(([^()\s]+)\)")
+MERGE = re.compile(r"^(<<<<<<< |>>>>>>> )", re.M)
 ELSEWHERE = re.compile(r"[a-z][a-z0-9+.-]*:")
 
 
@@ -45,10 +47,14 @@ def main():
     failures = 0
     for page in pages:
         with open(page, encoding="utf-8") as file:
-            for line, link in faults(page, file.read()):
-                failures += 1
-                print(f"FAIL {os.path.relpath(page, source)}:{line}: {link} leads nowhere")
-    print(f"{len(pages)} pages, {failures} links that lead nowhere")
+            text = file.read()
+        for line, link in faults(page, text):
+            failures += 1
+            print(f"FAIL {os.path.relpath(page, source)}:{line}: {link} leads nowhere")
+        for mark in MERGE.finditer(text):
+            failures += 1
+            print(f"FAIL {os.path.relpath(page, source)}:{text.count(chr(10), 0, mark.start()) + 1}: mark of a merge")
+    print(f"{len(pages)} pages, {failures} links that lead nowhere or marks of a merge")
     return 1 if failures else 0
 
 
