@@ -94,8 +94,9 @@ void Solver::set_modes(const Body& body) {
   modes_.one_sided = modes_.one_sided || body.interface_gradient;
   modes_.G = std::max(modes_.G, body.G);
   modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});
-  modes_.films =
-      modes_.films || (body.film && (body.film_thickness > 0 || body.mu != physics_.mu_f));
+  const bool thin = body.film && body.film_thickness > 0;
+  modes_.films = modes_.films || thin || (body.film && body.mu != physics_.mu_f);
+  modes_.stiff = modes_.stiff || thin;  // mu at walls changes, so the matrix is assembled anew
   if (body.strain_by_flux() && !by_flux_) by_flux_.emplace(mesh_);
   if (body.mu != physics_.mu_f) {
     modes_.mu_varies = true;
@@ -104,7 +105,11 @@ void Solver::set_modes(const Body& body) {
   }
   if (modes_.mu_varies) {
     Real most = physics_.mu_f;
-    for (const Body& one : bodies_) most = std::max(most, one.mu);
+    for (const Body& one : bodies_) {
+      most = std::max(most, one.mu);
+      if (one.film && one.film_thickness > 0)
+        most = std::max(most, physics_.mu_f * one.film->largest_depth() / one.film_thickness);
+    }
     momentum_.bound_explicit_viscosity(physics_.rho / modes_.rho_least * most);
   }
   if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
