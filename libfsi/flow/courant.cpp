@@ -9,10 +9,10 @@
 namespace fsi::flow {
 namespace {
 
-constexpr Real central = 0.6;  // Adams-Bashforth of third order is stable to 0.72
-constexpr Real upwind = 0.3;   // of second order
-constexpr Real damped = 0.2;   // Adams-Bashforth of third order is stable with it and 0.6 i
-constexpr Real tiny = 1e-30;   // a Courant number that counts as 0
+constexpr Real central = 0.6;      // Adams-Bashforth of third order is stable to 0.72
+constexpr Real upwind = 0.3;       // of second order
+constexpr Real damped_part = 0.2;  // Adams-Bashforth of third order is stable with it and 0.6 i
+constexpr Real tiny = 1e-30;       // a Courant number that counts as 0
 
 }  // namespace
 
@@ -88,7 +88,7 @@ void Courant::add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, R
     over_[c] = 1 - bound_ * mesh_.V[c] / std::max(dt * all / 2, tiny * mesh_.V[c]);
     const bool can = mesh_.simplex(c) && inner > 0;
     implicit_[c] = can ? std::clamp(all / inner * over_[c], 0., 1.) : 0;
-    at_edge_[c] = can ? implicit_[c] * (all / inner - 1) / damped : 0;
+    at_edge_[c] = can ? implicit_[c] * (all / inner - 1) / damped_part : 0;
   }
   mesh_.halo.update(over_), mesh_.halo.update(implicit_), mesh_.halo.update(at_edge_);
   for (Index f = 0; f < mesh_.n_internal; ++f) {
@@ -100,7 +100,7 @@ void Courant::add_implicit(FaceField<Real>& kappa, const FaceField<Real>& phi, R
                       : scheme_ == Convection::linear  ? weights.damping(f, mesh_)
                                                        : 1;
     const Real a =
-        std::max({s * s / (bound_ * (s - q)), s * beta / damped, at_edge_[P], at_edge_[N]});
+        std::max({s * s / (bound_ * (s - q)), s * beta / damped_part, at_edge_[P], at_edge_[N]});
     kappa[f] += a * rho * std::abs(phi[f]) / (2 * weights.g[f]);
   }
 }

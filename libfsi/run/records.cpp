@@ -8,11 +8,11 @@
 #include <string_view>
 
 #include "libfsi/analysis/measures.hpp"
-#include "libfsi/analysis/pieces.hpp"
 #include "libfsi/analysis/ring.hpp"
 #include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/pieces.hpp"
 #include "libfsi/run/taylor.hpp"
 #include "libfsi/solver/energy.hpp"
 
@@ -273,8 +273,10 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   if (volume_0_ == 0) volume_0_ = m.volume + body.volume_out;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
   constexpr Real piece = 0.01;
+  Pieces pieces(mesh);
+  pieces.find(body.alpha);
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,
-                .pieces = analysis::pieces(body.alpha, piece * volume_0_, mesh),
+                .pieces = pieces.count(body.alpha, piece * volume_0_),
                 .elastic_energy = elastic_energy(body),
                 .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};

@@ -9,6 +9,7 @@
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/io/checkpoint.hpp"
+#include "libfsi/operators/pieces.hpp"
 #include "libfsi/solid/body_force.hpp"
 #include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
@@ -192,6 +193,9 @@ struct Body {
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the shape of the map
   vof::HoldScratch hold_scratch;                 ///< scratch
+  Pieces pieces;                                 ///< at the last hold_shape
+  int pieces_at_start = 1;                       ///< of the undeformed solid
+  CellField<Real> torn;                          ///< scratch of that
   std::vector<Real> trust;                       ///< scratch of that
   Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
   std::vector<Index> last_cells;  ///< where B was set

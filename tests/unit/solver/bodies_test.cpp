@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/shapes/shapes.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -184,6 +185,42 @@ TEST(Bodies, OneThatIsPutInLaterPushesWhatIsBesideIt) {
       EXPECT_NEAR(end.volume / volume, 1, 1e-12);
       EXPECT_LE(norm(end.centre - Vec3{0.6, 0.5, 0}), 0.01);  // in the middle of the shear
     }
+}
+
+// A piece torn off a disc, one cell with the map of a place at the surface, does not take volume
+// from the disc and grow to a second one. A solid that is in two pieces from the start keeps both.
+TEST(Bodies, BuildNoSolidAroundAPieceTornOff) {
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {40, 40, 0}, .simplex = simplex});
+    const FaceWeights weights(mesh);
+    const auto right = [&](const Body& body) {
+      Sum sum;
+      for (Index c = 0; c < mesh.n_owned; ++c)
+        if (mesh.C[c].x > 0.55) sum.add(mesh.V[c] * body.alpha[c]);
+      return sum.total();
+    };
+    const shapes::Shape one = shapes::translate(shapes::sphere(0.2), {0.3, 0.5, 0});
+    Body torn(mesh, weights, {.shape = one, .G = 1}, {});
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (norm(mesh.C[c] - Vec3{0.76, 0.51, 0}) < 0.02) {
+        torn.alpha[c] = 1;
+        torn.memory->set_map(c, mesh.C[c] - Vec3{0.27, 0, 0});
+      }
+    torn.resume();
+    const Real before = right(torn);
+    ASSERT_GT(before, 0);
+    for (int i = 0; i < 30; ++i) torn.hold_shape();
+    EXPECT_LE(right(torn), before * (1 + 1e-12)) << simplex;
+
+    const shapes::Shape other = shapes::translate(shapes::sphere(0.1), {0.76, 0.5, 0});
+    Body two(mesh, weights, {.shape = shapes::unite({one, other}), .G = 1}, {});
+    const Real whole = right(two);
+    for (Index c = 0; c < mesh.n_cells; ++c)  // a cell's width is worn off
+      if (mesh.C[c].x > 0.55 && two.alpha[c] > 0 && two.alpha[c] < 1) two.alpha[c] *= 0.5;
+    two.resume();
+    for (int i = 0; i < 60; ++i) two.hold_shape();
+    EXPECT_GT(right(two), 0.9 * whole) << simplex;
+  }
 }
 
 }  // namespace

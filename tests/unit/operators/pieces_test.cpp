@@ -1,25 +1,32 @@
 // Pieces of a solid, on any number of ranks: what hangs together, also by a way that leads through
 // several ranks and back, or across a period.
 
-#include "libfsi/analysis/pieces.hpp"
+#include "libfsi/operators/pieces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "libfsi/vof/fill.hpp"
 #include "tests/unit/support/box_file.hpp"
 
-namespace fsi::analysis {
+namespace fsi {
 namespace {
 
 using namespace shapes;
 
+int count(const CellField<Real>& alpha, Real least, const Mesh& mesh) {
+  Pieces pieces(mesh);
+  pieces.find(alpha);
+  return pieces.count(alpha, least);
+}
+
 int pieces_of(const Mesh& mesh, const Shape& shape, Real least) {
   CellField<Real> alpha(mesh);
   vof::fill(alpha, mesh, shape);
-  return pieces(alpha, least, mesh);
+  return count(alpha, least, mesh);
 }
 
 TEST(Pieces, OfTwoBallsAndACrumb) {
@@ -51,9 +58,34 @@ TEST(Pieces, OfASerpent) {
     }
   };
   set(-1);
-  EXPECT_EQ(pieces(alpha, 0.01, mesh), 1);
+  EXPECT_EQ(count(alpha, 0.01, mesh), 1);
   set(0.594);  // the joint between columns 8 and 10
-  EXPECT_EQ(pieces(alpha, 0.01, mesh), 2);
+  EXPECT_EQ(count(alpha, 0.01, mesh), 2);
+}
+
+// A single cell beside a bar: it and three rings around it are marked, 49 cells, whatever they
+// hold.
+TEST(Pieces, MarksTheSmallOnes) {
+  const Mesh mesh = test::read_box({.n = {40, 40, 0}});
+  CellField<Real> alpha(mesh), near(mesh, -1);
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    const Vec3 x = 40 * mesh.C[c];
+    alpha[c] = x.x < 10 || (std::abs(x.x - 12.5) < 0.1 && std::abs(x.y - 20.5) < 0.1) ? 1 : 0;
+  }
+  Pieces pieces(mesh);
+  pieces.find(alpha);
+  EXPECT_TRUE(pieces.several());
+  pieces.mark_small(near, alpha, 1, 3);
+  GlobalIndex marked = 0;
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    const Vec3 x = 40 * mesh.C[c];
+    const bool around = std::abs(x.x - 12.5) < 3.1 && std::abs(x.y - 20.5) < 3.1;
+    EXPECT_EQ(near[c], around ? 1 : 0);
+    if (c < mesh.n_owned && near[c] > 0) ++marked;
+  }
+  EXPECT_EQ(global_sum(marked), 49);
+  pieces.mark_small(near, alpha, 2, 3);
+  for (Index c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(near[c], 0);
 }
 
 TEST(Pieces, AcrossAPeriod) {
@@ -62,11 +94,11 @@ TEST(Pieces, AcrossAPeriod) {
   const auto rim = [](const Mesh& where) {
     CellField<Real> alpha(where);
     for (Index c = 0; c < where.n_cells; ++c) alpha[c] = std::abs(where.C[c].x - 0.5) > 0.3 ? 1 : 0;
-    return pieces(alpha, 0.01, where);
+    return count(alpha, 0.01, where);
   };
   EXPECT_EQ(rim(closed), 2);
   EXPECT_EQ(rim(mesh), 1);
 }
 
 }  // namespace
-}  // namespace fsi::analysis
+}  // namespace fsi

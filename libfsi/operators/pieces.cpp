@@ -1,0 +1,103 @@
+#include "libfsi/operators/pieces.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "libfsi/core/parallel.hpp"
+
+namespace fsi {
+namespace {
+
+bool inside(Real alpha) { return alpha > 0.5; }
+
+}  // namespace
+
+Pieces::Pieces(const Mesh& mesh)
+    : mesh_(mesh), parent_(static_cast<std::size_t>(mesh.n_cells)), number_(mesh) {}
+
+Index Pieces::root(Index c) {
+  while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+  return c;
+}
+
+void Pieces::find(const CellField<Real>& alpha) {
+  std::iota(parent_.begin(), parent_.end(), Index{0});
+  for (Index c = 0; c < mesh_.n_cells; ++c) number_[c] = static_cast<Real>(mesh_.global_id[c]);
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    if (!inside(alpha[c])) continue;
+    for (const Index n : mesh_.cell_neighbours[c])
+      if (inside(alpha[n])) parent_[root(c)] = root(n);
+  }
+  spread(alpha);
+  Real least = static_cast<Real>(mesh_.n_global), most = -1;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    if (inside(alpha[c])) least = std::min(least, number_[c]), most = std::max(most, number_[c]);
+  several_ = global_min(least) < global_max(most);
+}
+
+// Gives every cell inside the least global number of its piece. Each rank first has that of its own
+// part. Smaller numbers of neighbours then pass from rank to rank until no number changes.
+void Pieces::spread(const CellField<Real>& alpha) {
+  bool falls = true;
+  while (falls) {
+    falls = false;
+    for (Index c = 0; c < mesh_.n_cells; ++c) {
+      if (!inside(alpha[c])) continue;
+      Real& of_set = number_[root(c)];
+      of_set = std::min(of_set, number_[c]);
+    }
+    for (Index c = 0; c < mesh_.n_cells; ++c) {
+      if (!inside(alpha[c])) continue;
+      const Real least = number_[root(c)];
+      falls = falls || least < number_[c];
+      number_[c] = least;
+    }
+    mesh_.halo.update(number_);
+    for (Index c = mesh_.n_owned; c < mesh_.n_cells; ++c)
+      falls = falls || (inside(alpha[c]) && number_[c] < number_[root(c)]);
+    falls = !all_of_ranks(!falls);
+  }
+}
+
+std::vector<Pieces::Volume> Pieces::volumes(const CellField<Real>& alpha) const {
+  std::map<Real, Real> mine, total;  // volume by number
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    if (inside(alpha[c])) mine[number_[c]] += alpha[c] * mesh_.V[c];
+  std::vector<Real> items;
+  for (const auto& [number, volume] : mine) items.push_back(number), items.push_back(volume);
+  const std::vector<Real> all = gathered(items);
+  for (std::size_t i = 0; i + 1 < all.size(); i += 2) total[all[i]] += all[i + 1];
+  std::vector<Volume> found;
+  for (const auto& [number, volume] : total) found.push_back({number, volume});
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Volume::volume);
+  return found;
+}
+
+int Pieces::count(const CellField<Real>& alpha, Real least) const {
+  return static_cast<int>(std::ranges::count_if(
+      volumes(alpha), [&](const Volume& piece) { return piece.volume >= least; }));
+}
+
+void Pieces::mark_small(CellField<Real>& near, const CellField<Real>& alpha, int keep,
+                        int rings) const {
+  near.fill(0);
+  std::vector<Volume> kept = volumes(alpha);
+  kept.resize(std::min(kept.size(), static_cast<std::size_t>(keep)));
+  const auto small = [&](Index c) {
+    return inside(alpha[c]) && std::ranges::find(kept, number_[c], &Volume::number) == kept.end();
+  };
+  // A cell holds the count of rings that are left beyond it and itself.
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    if (small(c)) near[c] = 1 + rings;
+  for (int left = rings; left > 0; --left) {
+    for (Index c = 0; c < mesh_.n_owned; ++c)
+      if (near[c] == 0 && std::ranges::any_of(mesh_.cell_neighbours[c],
+                                              [&](Index n) { return near[n] == 1 + left; }))
+        near[c] = left;
+    mesh_.halo.update(near);
+  }
+  for (Index c = 0; c < mesh_.n_cells; ++c) near[c] = near[c] > 0 ? 1 : 0;
+}
+
+}  // namespace fsi
