@@ -10,6 +10,7 @@
 #include "libfsi/mesh/quality.hpp"
 
 namespace fsi::flow {
+
 CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::string& to) {
   Conditions conditions;
   for (const Patch& patch : mesh.patches) conditions[patch.name] = Slip{};
@@ -42,14 +43,16 @@ CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::str
   }
   std::vector<Real> total(sums.size());
   Sum::totals(total, sums);
-  points_.push_back(centre(mesh, from));
+  add(centre(mesh, from));
   for (int k = 0; k < slices; ++k)
     if (const Real weight = total[4 * k + 3]; weight > 0)
-      points_.push_back(Vec3{total[4 * k], total[4 * k + 1], total[4 * k + 2]} / weight);
-  points_.push_back(centre(mesh, to));
-  arc_.push_back(0);
-  for (std::size_t i = 1; i < points_.size(); ++i)
-    arc_.push_back(arc_.back() + norm(points_[i] - points_[i - 1]));
+      add(Vec3{total[4 * k], total[4 * k + 1], total[4 * k + 2]} / weight);
+  add(centre(mesh, to));
+}
+
+void CentreLine::add(const Vec3& point) {
+  arc_.push_back(points_.empty() ? 0 : arc_.back() + norm(point - points_.back()));
+  points_.push_back(point);
 }
 
 std::pair<Vec3, Vec3> CentreLine::at(Real s) const {

@@ -23,6 +23,8 @@ class CentreLine {
   std::pair<Vec3, Vec3> at(Real s) const;
 
  private:
+  void add(const Vec3& point);
+
   std::vector<Vec3> points_;
   std::vector<Real> arc_;  // [points]
 };

@@ -223,7 +223,7 @@ Real shape_energy(const Body& body) {
   if (map == nullptr) return 0;
   CellField<SymTensor> B(body.mesh, identity());
   for (Index c = 0; c < body.mesh.n_owned; ++c) {
-    if (body.alpha[c] > 0 && map->is_set[c] > 0) B[c] = map->B(c, body.alpha[c]);
+    if (body.alpha[c] > 0 && map->is_set[c] > 0 && body.held_at(c)) B[c] = map->B(c, body.alpha[c]);
   }
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }

@@ -211,41 +211,43 @@ Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Re
          alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 
+// In the middle of the step, r_f = x_f - x_c,
+//   V d xi/dt = -(sum_f phi_f (xi_f - xi_c) - grad xi . o),   xi = x + xihat,   o: off.
+// The sum carries xi with (1/V) sum_f phi_f r_f. In a linear u this is wrong by o / V, o = sum_f
+// (L . r_f . S_f) r_f, in cells that are not symmetric about their centre.
+//
+// For the memory, a flux from a known cell to an unknown one mixes solid and fluid. There
+// phi_f = (utilde + L . r_f) . S_f, with utilde (`w`) of `velocity_of_fluxes` and L of the known
+// cells beyond the other faces. Along the surface, n its normal, the map then moves with utilde,
+// which strains psi. Cells at a wall are left out: in a film one cell thick the wall holds the
+// velocity of the cells, and a map that moves with it would be held too.
+Vec3 ReferenceMap::outflow(Index c, const FlowSnapshot& snapshot, Real dt) const {
+  const bool rim = beside_psi_ && in_open_fluid(c);
+  const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
+  const Tensor L = rim ? mean_of_known(snapshot.L, c) : snapshot.L[c];
+  Vec3 sum, carried, off;
+  for (const Index f : mesh_.cell_faces[c]) {
+    const Real side = outward(mesh_, f, c);
+    const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c], of_L = dot(L, r);
+    const Real phi =
+        side * (rim && leaves_known(f, c) ? dot(w + of_L, mesh_.Sf[f]) : snapshot.phi[f]);
+    sum += phi * (r + face_value(f, c, phi >= 0, snapshot, dt) - d[c]);
+    carried += phi * r;
+    off += (side * dot(of_L, mesh_.Sf[f])) * r;
+  }
+  if (rim) {
+    const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry()),
+               more = carried - off - mesh_.V[c] * w;
+    off += more - dot(more, n) * n;
+  }
+  return sum - dot(gradient_of_map(c), off - (dt / 2) * dot(L, off));
+}
+
 void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
-  for (const Index c : known_.core()) {
-    //   d xi/dt = -(1/V) (sum_f phi_f (xi_f - xi_c) - grad xi . o),   xi = x + xihat,   o: off,
-    // in the middle of the step, r_f = x_f - x_c. The sum carries xi with (1/V) sum_f phi_f r_f. In
-    // a linear u this is wrong by o / V, o = sum_f (L . r_f . S_f) r_f, in cells that are not
-    // symmetric about their centre.
-    //
-    // For the memory, a flux from a known cell to an unknown one mixes solid and fluid. There
-    // phi_f = (utilde + L . r_f) . S_f, with utilde (`w`) of `velocity_of_fluxes` and L of the
-    // known cells beyond the other faces. Along the surface, n its normal, the map then moves with
-    // utilde, which strains psi. Cells at a wall are left out: in a film one cell thick the wall
-    // holds the velocity of the cells, and a map that moves with it would be held too.
-    const bool rim = beside_psi_ && in_open_fluid(c);
-    const Vec3 w = rim ? velocity_of_fluxes(snapshot, filled_, mesh_, c) : Vec3{};
-    const Tensor L = rim ? mean_of_known(snapshot.L, c) : snapshot.L[c];
-    Vec3 sum, carried, off;
-    for (const Index f : mesh_.cell_faces[c]) {
-      const Real side = outward(mesh_, f, c);
-      const Vec3 r = mesh_.face_centre(f, c) - mesh_.C[c], of_L = dot(L, r);
-      const Real phi =
-          side * (rim && leaves_known(f, c) ? dot(w + of_L, mesh_.Sf[f]) : snapshot.phi[f]);
-      sum += phi * (r + face_value(f, c, phi >= 0, snapshot, dt) - d[c]);
-      carried += phi * r;
-      off += (side * dot(of_L, mesh_.Sf[f])) * r;
-    }
-    if (rim) {
-      const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry()),
-                 more = carried - off - mesh_.V[c] * w;
-      off += more - dot(more, n) * n;
-    }
-    sum += -1.0 * dot(gradient_of_map(c), off - (dt / 2) * dot(L, off));
-    new_.push_back(d[c] - (dt / mesh_.V[c]) * sum + towards_volume(c, snapshot, dt) +
-                   without_alternation(c, snapshot, dt));
-  }
+  for (const Index c : known_.core())
+    new_.push_back(d[c] - (dt / mesh_.V[c]) * outflow(c, snapshot, dt) +
+                   towards_volume(c, snapshot, dt) + without_alternation(c, snapshot, dt));
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();

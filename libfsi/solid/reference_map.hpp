@@ -112,6 +112,8 @@ class ReferenceMap {
   /// whether the flow leaves cell c there.
   Vec3 face_value(Index f, Index c, bool out, const FlowSnapshot& snapshot, Real dt) const;
   Tensor gradient(Index c) const;
+  /// What the flow takes out of cell c: sum_f phi_f (xi_f - xi_c) - grad xi . o.
+  Vec3 outflow(Index c, const FlowSnapshot& snapshot, Real dt) const;
   /// The change of the map by the diffusion of J - 1 in dt.
   Vec3 towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const;
   /// The change of the map by the fourth-difference filter in dt.

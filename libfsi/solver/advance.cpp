@@ -68,6 +68,11 @@ void Solver::hold_backup() {
   backup_.emplace(state, mesh_);
 }
 
+void Solver::keep_backup() {
+  if (!backup_) hold_backup();
+  backup_->keep();
+}
+
 bool Solver::stuck(Real dt) {
   constexpr Real tiny = 1e-6;  // of the largest step
   constexpr int most = 100;    // such steps in a row; a single one may end at an event
@@ -118,8 +123,7 @@ void Solver::synchronise() {
 
 void Solver::at_one_time(const std::function<void()>& use) {
   if (!stands_apart()) return use();
-  if (!backup_) hold_backup();
-  backup_->keep();
+  keep_backup();
   const auto take_back = [&] {
     backup_->restore();
     resume();
@@ -166,8 +170,7 @@ bool Solver::balanced(Real t) {
 Real Solver::advance(Real dt) {
   require_step(dt);
   if (!balanced(state_.t + dt)) return 0;
-  if (!backup_) hold_backup();
-  backup_->keep();
+  keep_backup();
   dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());
   report_.held_back = dt > dt_cap_;
   dt = std::min(dt, dt_cap_);
@@ -198,10 +201,10 @@ Real Solver::advance(Real dt) {
     ++report_.rejected;
     ++report_.rejections[against.reason];
   }
-  std::array<char, 96> where{};
-  std::snprintf(where.data(), where.size(), "step %lld from t = %.6g failed down to dt = %.2g: ",
-                static_cast<long long>(state_.step + 1), state_.t, tiny_steps_ > 0 ? dt : 2 * dt);
-  report_.failure = where.data() + reason;
+  report_.failure =
+      print("step %lld from t = %.6g failed down to dt = %.2g: ",
+            static_cast<long long>(state_.step + 1), state_.t, tiny_steps_ > 0 ? dt : 2 * dt) +
+      reason;
   return 0;
 }
 

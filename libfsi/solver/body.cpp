@@ -160,7 +160,7 @@ void Body::hold_shape() {
   pieces.find(alpha);
   if (pieces.several()) pieces.mark_small(torn, alpha, pieces_at_start, solid::Rings::count);
   trust.clear();
-  for (const Index c : m.cells()) trust.push_back(pieces.several() && torn[c] > 0 ? 0 : m.trust(c));
+  for (const Index c : m.cells()) trust.push_back(held_at(c) ? m.trust(c) : 0);
   shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);
@@ -177,7 +177,7 @@ void Body::set_touched(std::span<const Index> cells, std::span<const char> open)
 }
 
 bool Body::count_out() {
-  constexpr Real speck = 0.01, rest = 1e-3;
+  constexpr Real speck = 0.01, rest = 0.01;
   Sum out;
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) out.add(advect_scratch.solid[f]);
   volume_out += out.total();

@@ -82,7 +82,7 @@ struct Body {
   void hold_shape();
   /// Collective, after `advect`. Counts the solid that left through the boundary. Once some has
   /// left, it takes out specks: cells with less than a hundredth of solid in themselves and all
-  /// around them. It takes out the rest, the residue, if that is less than a thousandth of the
+  /// around them. It takes out the rest, the residue, if that is less than a hundredth of the
   /// body. It also does so if no cell is half solid any more, so that no cell is known. Both count
   /// as having left. Returns whether alpha was changed.
   bool count_out();
@@ -130,6 +130,8 @@ struct Body {
   const solid::ReferenceMap* map() const {
     return remembers() ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
   }
+  /// Whether the last `hold_shape` held cell c: it is not near a piece torn off.
+  bool held_at(Index c) const { return !pieces.several() || torn[c] == 0; }
   /// Speed of shear waves at rest, c_s = sqrt(G / rho).
   Real wave_speed() const { return std::sqrt(G / rho); }
   /// Whether the memory is in use.

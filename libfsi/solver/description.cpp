@@ -85,8 +85,6 @@ std::vector<std::string> Solver::describe_step() const {
   const bool loaded = std::ranges::any_of(conditions_, [](const Condition& one) {
     return fixes_pressure(one) || prescribes_flow(one);
   });
-  const std::string implicit =
-      with_convection(solids(&OfBody::implicit), modes_.implicit_convection);
   std::string viscosity = where(modes_.mu_varies, "mu of fluid and solids by alpha");
   if (modes_.films)
     viscosity += std::string(viscosity.empty() ? "" : "; ") + "that of the film at walls";
@@ -104,7 +102,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"mix_viscosity", viscosity},
       {"mix_density", where(heavy_.has_value(), "rho of fluid and solids, new pressure matrix")},
       {"add_elastic_force", solids(&OfBody::force)},
-      {"add_semi_implicit", implicit},
+      {"add_semi_implicit", with_convection(solids(&OfBody::implicit), modes_.implicit_convection)},
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
       {"balance_weight", where(heavy_.has_value(),
                                "first step: p balances the weight; each step: force on the cells")},

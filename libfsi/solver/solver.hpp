@@ -26,6 +26,7 @@
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
 #include "libfsi/solver/solid_step.hpp"
+#include "libfsi/solver/state.hpp"
 #include "libfsi/vof/separate.hpp"
 
 namespace fsi {
@@ -45,27 +46,6 @@ struct FlowSetup {
   bool orthogonal_projection = false;
   /// Force per volume on fluid and solid at x and t; none where empty.
   std::function<Vec3(const Vec3& x, Real t)> body_force{};
-};
-
-/// The unknowns at time t.
-struct State {
-  /// At rest, at t = 0.
-  explicit State(const Mesh& mesh) : u(mesh), p(mesh), phi(mesh) {}
-  CellField<Vec3> u;      ///< velocity
-  CellField<Real> p;      ///< pressure, half a step behind u
-  FaceField<Real> phi;    ///< volume flux, divergence-free to the solver's tolerance
-  Real t = 0;             ///< time
-  std::int64_t step = 0;  ///< steps taken since t = 0
-};
-
-/// What the last step took, and what went wrong in this run.
-struct StepReport {
-  int velocity_iterations = 0, pressure_iterations = 0;  ///< of the linear solvers
-  Real pressure_residual = 0;  ///< norm over the cells of the net flux that the solve left
-  std::int64_t rejected = 0;   ///< steps taken back; an Output counts from 0
-  std::map<std::string, std::int64_t> rejections{};  ///< by reason, since the start or restart
-  bool held_back = false;  ///< the step is smaller than asked for, after a rejected one
-  std::string failure;     ///< why the run cannot go on; empty while it can
 };
 
 /// Advances a State by the calls of doc/theory/step.md; the kinematics of the paper's scheme is
@@ -288,6 +268,7 @@ class Solver {
   Real elastic_dt(const Body& body) const;
   void make_orthogonal();
   void hold_backup();
+  void keep_backup();
   /// Numbers in profile_ of what a step calls.
   struct Calls {
     explicit Calls(Profile& profile);

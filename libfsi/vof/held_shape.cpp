@@ -88,19 +88,14 @@ void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, cons
   Sum::totals(totals, sums);
 }
 
-}  // namespace
-
-Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
-  list_planes(map, alpha, mesh, s);
-  Sum solid, moved;
-  for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
-  const Real volume = solid.total();
+/// Sets `change` for the shift that keeps the volume, and returns the volume that it adds
+/// nevertheless. Newton's method, bounded by a shift that gives too little and one that gives too
+/// much. Its steps would alternate if the change of many cells is limited. The change grows with
+/// the shift, so both bounds stay valid.
+Real set_change_of_no_volume(const CellField<Real>& alpha, Real volume, const Mesh& mesh,
+                             HoldScratch& s) {
   constexpr int rounds = 20;
   constexpr Real enough = 1e-7;  // of the volume; the rest goes to the cut cells
-  constexpr Real left = 1e-5;    // more cannot go there
-  // Newton's method, bounded by a shift that gives too little and one that gives too much. Its
-  // steps would alternate if the change of many cells is limited. The change grows with the shift,
-  // so both bounds stay valid.
   constexpr Real none = std::numeric_limits<Real>::infinity();
   const Real longest =
       std::pow(volume, Real{1} / mesh.dim) / 8;  // of a step, where the area is small
@@ -120,7 +115,18 @@ Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, H
       break;
     }
   }
-  if (!(std::abs(off) <= left * volume))
+  return off;
+}
+
+}  // namespace
+
+Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
+  list_planes(map, alpha, mesh, s);
+  Sum solid, moved;
+  for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
+  const Real volume = solid.total();
+  constexpr Real left = 1e-5;  // of the volume: more cannot go to the cut cells
+  if (!(std::abs(set_change_of_no_volume(alpha, volume, mesh, s)) <= left * volume))
     return 0;               // no shift keeps the volume: the map gives no shape
   std::array<Sum, 2> sums;  // volume added, weight of the cells that give it back
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
