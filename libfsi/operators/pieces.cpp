@@ -79,11 +79,23 @@ int Pieces::count(const CellField<Real>& alpha, Real least) const {
       volumes(alpha), [&](const Volume& piece) { return piece.volume >= least; }));
 }
 
-void Pieces::mark_small(CellField<Real>& near, const CellField<Real>& alpha, int keep,
-                        int rings) const {
-  near.fill(0);
+void Pieces::mark_but(CellField<Real>& near, const CellField<Real>& alpha, int keep,
+                      int rings) const {
   std::vector<Volume> kept = volumes(alpha);
   kept.resize(std::min(kept.size(), static_cast<std::size_t>(keep)));
+  mark(near, alpha, kept, rings);
+}
+
+void Pieces::mark_below(CellField<Real>& near, const CellField<Real>& alpha, Real least,
+                        int rings) const {
+  std::vector<Volume> kept = volumes(alpha);
+  std::erase_if(kept, [&](const Volume& piece) { return piece.volume < least; });
+  mark(near, alpha, kept, rings);
+}
+
+void Pieces::mark(CellField<Real>& near, const CellField<Real>& alpha, std::span<const Volume> kept,
+                  int rings) const {
+  near.fill(0);
   const auto small = [&](Index c) {
     return inside(alpha[c]) && std::ranges::find(kept, number_[c], &Volume::number) == kept.end();
   };

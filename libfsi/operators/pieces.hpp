@@ -1,6 +1,7 @@
 #pragma once
 // The pieces that a solid is in.
 
+#include <span>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
@@ -25,7 +26,9 @@ class Pieces {
   int count(const CellField<Real>& alpha, Real least) const;
   /// Collective. Sets `near` to 1 in all pieces but the `keep` largest ones and in `rings` rings of
   /// vertex neighbours around them, to 0 elsewhere; owned and halo. alpha: that of the last `find`.
-  void mark_small(CellField<Real>& near, const CellField<Real>& alpha, int keep, int rings) const;
+  void mark_but(CellField<Real>& near, const CellField<Real>& alpha, int keep, int rings) const;
+  /// Collective. The same for the pieces of less solid than `least`.
+  void mark_below(CellField<Real>& near, const CellField<Real>& alpha, Real least, int rings) const;
 
  private:
   struct Volume {
@@ -33,6 +36,8 @@ class Pieces {
   };
   Index root(Index c);
   void spread(const CellField<Real>& alpha);
+  void mark(CellField<Real>& near, const CellField<Real>& alpha, std::span<const Volume> kept,
+            int rings) const;
   /// Collective. The volume of each piece, the largest first.
   std::vector<Volume> volumes(const CellField<Real>& alpha) const;
 

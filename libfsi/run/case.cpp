@@ -152,9 +152,10 @@ OutputSetup read_output(Options& options, const std::string& driver) {
                     .min = 0});
   output.restart =
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
-  output.end_when_empty =
-      options.flag("end_when_empty", false,
-                   "end the run once all solids have left the mesh: no cell is half full");
+  output.end_when_empty = options.flag(
+      "end_when_empty", false,
+      "end the run once all solids have left the mesh: no cell is half full, or less than "
+      "1 % is left");
   output.describe_step =
       options.flag("describe_step", false, "print what each call of a step does in this scene");
   output.wall_seconds_max = options.real(

@@ -193,6 +193,8 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
 
 namespace {
 
+constexpr Real crumb = 0.01;  // of a solid's volume: a smaller piece is a crumb
+
 /// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
 SymTensor isochoric(SymTensor B, int dim) {
   const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
@@ -221,10 +223,15 @@ Real elastic_energy(const Body& body) {
 Real shape_energy(const Body& body) {
   const solid::ReferenceMap* map = body.map();
   if (map == nullptr) return 0;
+  // A crumb that was torn off has no map of its own shape.
+  CellField<Real> crumbs(body.mesh);
+  Pieces pieces(body.mesh);
+  pieces.find(body.alpha);
+  if (pieces.several())
+    pieces.mark_below(crumbs, body.alpha, crumb * body.filled.volume, solid::Rings::count);
   CellField<SymTensor> B(body.mesh, identity());
-  for (Index c = 0; c < body.mesh.n_owned; ++c) {
-    if (body.alpha[c] > 0 && map->is_set[c] > 0 && body.held_at(c)) B[c] = map->B(c, body.alpha[c]);
-  }
+  for (Index c = 0; c < body.mesh.n_owned; ++c)
+    if (body.alpha[c] > 0 && map->is_set[c] > 0 && crumbs[c] == 0) B[c] = map->B(c, body.alpha[c]);
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
@@ -272,11 +279,10 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume + body.volume_out;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
-  constexpr Real piece = 0.01;
   Pieces pieces(mesh);
   pieces.find(body.alpha);
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,
-                .pieces = pieces.count(body.alpha, piece * volume_0_),
+                .pieces = pieces.count(body.alpha, crumb * volume_0_),
                 .elastic_energy = elastic_energy(body),
                 .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};

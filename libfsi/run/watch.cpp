@@ -171,8 +171,8 @@ void Watch::leaving(const Solver& solver) {
     if (ends)
       say("notice",
           "the last of the " + name_of(body) +
-              print(" left the mesh at t = %g; %.2g %% of it, a volume of %.3g that filled no cell "
-                    "by half, was taken out and counts in volume_out",
+              print(" left the mesh at t = %g; the rest, %.2g %% of it, a volume of %.3g, was "
+                    "taken out and counts in volume_out",
                     t, 100 * body.residue / body.filled.volume, body.residue));
   }
 }

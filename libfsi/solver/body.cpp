@@ -158,9 +158,9 @@ void Body::hold_shape() {
   // Around a piece that was torn off the map tells that the solid goes on. There the rule would
   // build the whole solid anew.
   pieces.find(alpha);
-  if (pieces.several()) pieces.mark_small(torn, alpha, pieces_at_start, solid::Rings::count);
+  if (pieces.several()) pieces.mark_but(torn, alpha, pieces_at_start, solid::Rings::count);
   trust.clear();
-  for (const Index c : m.cells()) trust.push_back(held_at(c) ? m.trust(c) : 0);
+  for (const Index c : m.cells()) trust.push_back(pieces.several() && torn[c] > 0 ? 0 : m.trust(c));
   shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);

@@ -130,8 +130,6 @@ struct Body {
   const solid::ReferenceMap* map() const {
     return remembers() ? &*memory : std::get_if<solid::ReferenceMap>(&kinematics);
   }
-  /// Whether the last `hold_shape` held cell c: it is not near a piece torn off.
-  bool held_at(Index c) const { return !pieces.several() || torn[c] == 0; }
   /// Speed of shear waves at rest, c_s = sqrt(G / rho).
   Real wave_speed() const { return std::sqrt(G / rho); }
   /// Whether the memory is in use.

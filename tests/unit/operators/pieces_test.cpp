@@ -75,7 +75,7 @@ TEST(Pieces, MarksTheSmallOnes) {
   Pieces pieces(mesh);
   pieces.find(alpha);
   EXPECT_TRUE(pieces.several());
-  pieces.mark_small(near, alpha, 1, 3);
+  pieces.mark_but(near, alpha, 1, 3);
   GlobalIndex marked = 0;
   for (Index c = 0; c < mesh.n_cells; ++c) {
     const Vec3 x = 40 * mesh.C[c];
@@ -84,8 +84,12 @@ TEST(Pieces, MarksTheSmallOnes) {
     if (c < mesh.n_owned && near[c] > 0) ++marked;
   }
   EXPECT_EQ(global_sum(marked), 49);
-  pieces.mark_small(near, alpha, 2, 3);
+  pieces.mark_but(near, alpha, 2, 3);
   for (Index c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(near[c], 0);
+  pieces.mark_below(near, alpha, 0.01, 3);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (near[c] > 0) --marked;
+  EXPECT_EQ(global_sum(marked), 0);
 }
 
 TEST(Pieces, AcrossAPeriod) {
