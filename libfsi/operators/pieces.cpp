@@ -70,7 +70,6 @@ std::vector<Pieces::Volume> Pieces::volumes(const CellField<Real>& alpha) const 
   for (std::size_t i = 0; i + 1 < all.size(); i += 2) total[all[i]] += all[i + 1];
   std::vector<Volume> found;
   for (const auto& [number, volume] : total) found.push_back({number, volume});
-  std::ranges::stable_sort(found, std::ranges::greater{}, &Volume::volume);
   return found;
 }
 
@@ -79,33 +78,24 @@ int Pieces::count(const CellField<Real>& alpha, Real least) const {
       volumes(alpha), [&](const Volume& piece) { return piece.volume >= least; }));
 }
 
-void Pieces::mark_but(CellField<Real>& near, const CellField<Real>& alpha, int keep,
-                      int rings) const {
-  std::vector<Volume> kept = volumes(alpha);
-  kept.resize(std::min(kept.size(), static_cast<std::size_t>(keep)));
-  mark(near, alpha, kept, rings);
-}
-
-void Pieces::mark_below(CellField<Real>& near, const CellField<Real>& alpha, Real least,
-                        int rings) const {
-  std::vector<Volume> kept = volumes(alpha);
-  std::erase_if(kept, [&](const Volume& piece) { return piece.volume < least; });
-  mark(near, alpha, kept, rings);
-}
-
-void Pieces::mark(CellField<Real>& near, const CellField<Real>& alpha, std::span<const Volume> kept,
-                  int rings) const {
+void Pieces::mark_crumbs(CellField<Real>& near, const CellField<Real>& alpha, int rings) const {
+  constexpr Real part = 0.01;  // of the largest piece
   near.fill(0);
+  std::vector<Volume> large = volumes(alpha);
+  Real largest = 0;
+  for (const Volume& piece : large) largest = std::max(largest, piece.volume);
+  std::erase_if(large, [&](const Volume& piece) { return piece.volume < part * largest; });
   const auto small = [&](Index c) {
-    return inside(alpha[c]) && std::ranges::find(kept, number_[c], &Volume::number) == kept.end();
+    return inside(alpha[c]) && std::ranges::find(large, number_[c], &Volume::number) == large.end();
   };
   // A cell holds the count of rings that are left beyond it and itself.
   for (Index c = 0; c < mesh_.n_cells; ++c)
     if (small(c)) near[c] = 1 + rings;
   for (int left = rings; left > 0; --left) {
     for (Index c = 0; c < mesh_.n_owned; ++c)
-      if (near[c] == 0 && std::ranges::any_of(mesh_.cell_neighbours[c],
-                                              [&](Index n) { return near[n] == 1 + left; }))
+      if (near[c] == 0 && !inside(alpha[c]) &&
+          std::ranges::any_of(mesh_.cell_neighbours[c],
+                              [&](Index n) { return near[n] == 1 + left; }))
         near[c] = left;
     mesh_.halo.update(near);
   }

@@ -1,7 +1,6 @@
 #pragma once
 // The pieces that a solid is in.
 
-#include <span>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
@@ -24,11 +23,10 @@ class Pieces {
   /// Collective. Count of the pieces whose solid, sum alpha V, is `least` or more. alpha: that of
   /// the last `find`.
   int count(const CellField<Real>& alpha, Real least) const;
-  /// Collective. Sets `near` to 1 in all pieces but the `keep` largest ones and in `rings` rings of
-  /// vertex neighbours around them, to 0 elsewhere; owned and halo. alpha: that of the last `find`.
-  void mark_but(CellField<Real>& near, const CellField<Real>& alpha, int keep, int rings) const;
-  /// Collective. The same for the pieces of less solid than `least`.
-  void mark_below(CellField<Real>& near, const CellField<Real>& alpha, Real least, int rings) const;
+  /// Collective. Sets `near` to 1 in the crumbs, pieces with less than a hundredth of the solid of
+  /// the largest one, and in `rings` rings of vertex neighbours around them, but not in other
+  /// pieces; to 0 elsewhere; owned and halo. alpha: that of the last `find`.
+  void mark_crumbs(CellField<Real>& near, const CellField<Real>& alpha, int rings) const;
 
  private:
   struct Volume {
@@ -36,9 +34,7 @@ class Pieces {
   };
   Index root(Index c);
   void spread(const CellField<Real>& alpha);
-  void mark(CellField<Real>& near, const CellField<Real>& alpha, std::span<const Volume> kept,
-            int rings) const;
-  /// Collective. The volume of each piece, the largest first.
+  /// Collective. The volume of each piece. Allocates, as do its callers.
   std::vector<Volume> volumes(const CellField<Real>& alpha) const;
 
   const Mesh& mesh_;

@@ -227,8 +227,7 @@ Real shape_energy(const Body& body) {
   CellField<Real> crumbs(body.mesh);
   Pieces pieces(body.mesh);
   pieces.find(body.alpha);
-  if (pieces.several())
-    pieces.mark_below(crumbs, body.alpha, crumb * body.filled.volume, solid::Rings::count);
+  if (pieces.several()) pieces.mark_crumbs(crumbs, body.alpha, solid::Rings::count);
   CellField<SymTensor> B(body.mesh, identity());
   for (Index c = 0; c < body.mesh.n_owned; ++c)
     if (body.alpha[c] > 0 && map->is_set[c] > 0 && crumbs[c] == 0) B[c] = map->B(c, body.alpha[c]);

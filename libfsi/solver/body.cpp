@@ -64,7 +64,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
       hold_scratch(mesh),
       pieces(mesh),
-      torn(mesh),
+      crumbs(mesh),
       mirror{mirrors.empty() ? std::vector<char>{} : on_faces(mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
@@ -78,8 +78,6 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
     memory->set_undeformed(alpha);
   }
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
-  pieces.find(alpha);
-  pieces_at_start = std::max(1, pieces.count(alpha, 0));
   resume();
 }
 
@@ -155,12 +153,13 @@ void Body::update_B() {
 void Body::hold_shape() {
   if (!held || gone != 0) return;
   const solid::ReferenceMap& m = *map();
-  // Around a piece that was torn off the map tells that the solid goes on. There the rule would
+  // Around a crumb that was torn off the map tells that the solid goes on. There the rule would
   // build the whole solid anew.
   pieces.find(alpha);
-  if (pieces.several()) pieces.mark_but(torn, alpha, pieces_at_start, solid::Rings::count);
+  if (pieces.several()) pieces.mark_crumbs(crumbs, alpha, solid::Rings::count);
   trust.clear();
-  for (const Index c : m.cells()) trust.push_back(pieces.several() && torn[c] > 0 ? 0 : m.trust(c));
+  for (const Index c : m.cells())
+    trust.push_back(pieces.several() && crumbs[c] > 0 ? 0 : m.trust(c));
   shape_moved = vof::hold_shape(
       alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
       mesh, hold_scratch);

@@ -187,9 +187,9 @@ TEST(Bodies, OneThatIsPutInLaterPushesWhatIsBesideIt) {
     }
 }
 
-// A piece torn off a disc, one cell with the map of a place at the surface, does not take volume
+// A crumb torn off a disc, one cell with the map of a place at the surface, does not take volume
 // from the disc and grow to a second one. A solid that is in two pieces from the start keeps both.
-TEST(Bodies, BuildNoSolidAroundAPieceTornOff) {
+TEST(Bodies, BuildNoSolidAroundACrumb) {
   for (const bool simplex : {false, true}) {
     const Mesh mesh = test::read_box({.n = {40, 40, 0}, .simplex = simplex});
     const FaceWeights weights(mesh);
@@ -202,7 +202,7 @@ TEST(Bodies, BuildNoSolidAroundAPieceTornOff) {
     const shapes::Shape one = shapes::translate(shapes::sphere(0.2), {0.3, 0.5, 0});
     Body torn(mesh, weights, {.shape = one, .G = 1}, {});
     for (Index c = 0; c < mesh.n_cells; ++c)
-      if (norm(mesh.C[c] - Vec3{0.76, 0.51, 0}) < 0.02) {
+      if (norm(mesh.C[c] - Vec3{0.76, 0.51, 0}) < 0.01) {
         torn.alpha[c] = 1;
         torn.memory->set_map(c, mesh.C[c] - Vec3{0.27, 0, 0});
       }
