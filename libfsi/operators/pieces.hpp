@@ -23,9 +23,9 @@ class Pieces {
   /// Collective. Count of the pieces whose solid, sum alpha V, is `least` or more. alpha: that of
   /// the last `find`.
   int count(const CellField<Real>& alpha, Real least) const;
-  /// Collective. Sets `near` to 1 in the crumbs, pieces with less than a hundredth of the solid of
-  /// the largest one, and in `rings` rings of vertex neighbours around them, but not in other
-  /// pieces; to 0 elsewhere; owned and halo. alpha: that of the last `find`.
+  /// Collective. A crumb is a piece with less than a hundredth of the volume of the largest one.
+  /// Sets `near` to 1 in the crumbs and in `rings` rings of vertex neighbours around them that are
+  /// in no piece, to 0 elsewhere; owned and halo. alpha: that of the last `find`.
   void mark_crumbs(CellField<Real>& near, const CellField<Real>& alpha, int rings) const;
 
  private:
