@@ -193,8 +193,6 @@ CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
 
 namespace {
 
-constexpr Real crumb = 0.01;  // of a solid's volume: a smaller piece is a crumb
-
 /// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
 SymTensor isochoric(SymTensor B, int dim) {
   const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
@@ -278,10 +276,11 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume + body.volume_out;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
+  constexpr Real piece = 0.01;  // of the first volume: smaller ones are not counted
   Pieces pieces(mesh);
   pieces.find(body.alpha);
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,
-                .pieces = pieces.count(body.alpha, crumb * volume_0_),
+                .pieces = pieces.count(body.alpha, piece * volume_0_),
                 .elastic_energy = elastic_energy(body),
                 .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};
