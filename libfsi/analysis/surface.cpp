@@ -56,7 +56,7 @@ struct Stencil {
 class Corners {
  public:
   Corners(const CellField<Real>& alpha, const Mesh& mesh)
-      : mesh_(mesh), slot_(mesh.points.size(), -1) {
+      : mesh_(mesh), slot_(mesh.points.size(), outside) {
     find_cells(alpha);
     for (const Index c : cells) {
       for (const Index p : mesh.cell_points[c]) {
@@ -73,14 +73,19 @@ class Corners {
   Real operator[](Index point) const { return value_[slot_[mesh_.vertex[point]]]; }
 
  private:
+  /// Marks the vertices of the cells inside. A cell outside is listed if it touches one of them. A
+  /// cell inside is listed if it has a neighbour outside.
   void find_cells(const CellField<Real>& alpha) {
+    const auto inside = [&](Index c) { return alpha[c] > level; };
+    for (Index c = 0; c < mesh_.n_cells; ++c)
+      if (inside(c))
+        for (const Index p : mesh_.cell_points[c]) slot_[mesh_.vertex[p]] = touched;
     for (Index c = 0; c < mesh_.n_owned; ++c) {
-      const bool inside = alpha[c] > level;
-      for (const Index n : mesh_.cell_neighbours[c]) {
-        if ((alpha[n] > level) == inside) continue;
-        cells.push_back(c);
-        break;
-      }
+      const bool listed = inside(c) ? !std::ranges::all_of(mesh_.cell_neighbours[c], inside)
+                                    : std::ranges::any_of(mesh_.cell_points[c], [this](Index p) {
+                                        return slot_[mesh_.vertex[p]] == touched;
+                                      });
+      if (listed) cells.push_back(c);
     }
   }
 
@@ -99,7 +104,8 @@ class Corners {
   }
 
   const Mesh& mesh_;
-  std::vector<Index> slot_;  // [vertices] -1: not wanted
+  static constexpr Index outside = -1, touched = -2;  // below 0: no value is wanted
+  std::vector<Index> slot_;                           // [vertices]
   Index n_slots_ = 0;
   std::vector<Real> value_;  // [slots]
 };

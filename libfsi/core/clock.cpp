@@ -39,10 +39,11 @@ void Schedule::resume(Real t) {
   if (interval_ > 0) done_ = index(t);
 }
 
-Real Clock::step(Real limit, Real event) const {
-  const Real rest = std::min(end_, event) - t_;
-  if (rest <= limit * (1 + tolerance)) return rest;
-  return rest < 2 * limit ? rest / 2 : limit;
+Real Clock::step(Real limit, const Events& ahead) const {
+  const Real rest = std::min(end_, ahead.hit) - t_;
+  const bool hits = rest <= limit * (1 + tolerance);
+  const Real dt = hits ? rest : rest < 2 * limit ? rest / 2 : limit;
+  return std::min(dt, ahead.not_past - t_);
 }
 
 Real Forecast::seconds_left(Real wall, Real t, Real end) {

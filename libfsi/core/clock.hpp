@@ -47,6 +47,12 @@ class Schedule {
   std::int64_t done_ = -1;
 };
 
+/// What lies ahead of a step.
+struct Events {
+  Real hit;                                          ///< a step ends at this time
+  Real not_past = std::numeric_limits<Real>::max();  ///< no step ends after this time
+};
+
 /// Time runs from 0 to end; the last step lands on it.
 class Clock {
  public:
@@ -58,9 +64,11 @@ class Clock {
   Real t() const { return t_; }
   /// The end of the run.
   Real end() const { return end_; }
-  /// The step from t that hits `event` (or the end) when it lies within reach of `limit`; a rest of
-  /// less than a step is split in two so that no tiny step is left.
-  Real step(Real limit, Real event) const;
+  /// The step from t that hits the event (or the end) when it lies within reach of `limit`. A rest
+  /// of less than two steps is split in two so that no tiny step is left.
+  Real step(Real limit, const Events& ahead) const;
+  /// The same where a step may pass any other time.
+  Real step(Real limit, Real event) const { return step(limit, Events{event}); }
   /// Sets the time reached.
   void set(Real t) { t_ = t; }
 

@@ -12,7 +12,7 @@ using Matrix = Real[3][3];
 /// theta = (a_qq - a_pp) / (2 a_pq), t = tan of the smaller angle   [GolubVanLoan13] alg. 8.5.1
 void rotate(Matrix& a, Matrix& v, int p, int q) {
   const Real theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  const Real t = std::copysign(1 / (std::abs(theta) + std::hypot(theta, 1)), theta);
+  const Real t = std::copysign(1 / (std::abs(theta) + std::sqrt(theta * theta + 1)), theta);
   const Real c = 1 / std::sqrt(t * t + 1), s = t * c;
   const int r = 3 - p - q;
   a[p][p] -= t * a[p][q], a[q][q] += t * a[p][q];

@@ -45,9 +45,11 @@ Real exact_sum(std::span<const Real> items) {
   return sum.total();
 }
 
-Real Sum::total() const {
+Real Sum::total_of(Real high, Real low) {
+  Sum sum;
+  sum.high_ = high, sum.low_ = low;
   Real result = 0;
-  totals({&result, 1}, {this, 1});
+  totals({&result, 1}, {&sum, 1});
   return result;
 }
 

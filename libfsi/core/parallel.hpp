@@ -40,12 +40,17 @@ class Sum {
     low_ += (high_ - (s - b)) + (value - b);
     high_ = s;
   }
+  /// Adds all terms of another one.
+  void add(const Sum& other) { add(other.high_), low_ += other.low_; }
   /// Collective. The sum over all ranks.
-  Real total() const;
+  // The parts go by value, so that a loop over add() can keep them in registers.
+  Real total() const { return total_of(high_, low_); }
   /// Collective. Several sums in one exchange: items[i] becomes the total of parts[i].
   static void totals(std::span<Real> items, std::span<const Sum> parts);
 
  private:
+  static Real total_of(Real high, Real low);
+
   Real high_ = 0, low_ = 0;
 };
 

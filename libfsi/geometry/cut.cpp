@@ -1,6 +1,7 @@
 #include "libfsi/geometry/cut.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -40,100 +41,67 @@ Vec3 facet_area(std::span<const Vec3> x, const Polytope::Facet& f) {
   return 0.5 * cross(a, x[f[2]] - x[f[0]]);
 }
 
-/// A cell sorted along a direction n: the parts of the volume below a level.
+/// A cell along a direction n: the parts of the volume below a level.
 template <int dim>
 struct Profile {
   struct Item {
     Levels<dim> q;
     Real xS, nS;
   };
-  int n_items = 0, n_levels = 0;
-  Real whole = 0;
+  int n_items = 0;
+  Real whole = 0;                                            // volume
+  Real low = std::numeric_limits<Real>::max(), high = -low;  // levels of the corners
   std::array<Item, Polytope::max_facets> items;
-  std::array<Real, Polytope::max_points> levels;  // ascending, of all corners
 
   Profile(const Polytope& cell, const Vec3& n) {
     const auto x = cell.points();
-    for (const Vec3& point : x) levels[n_levels++] = dot(n, point);
+    std::array<Real, Polytope::max_points> level;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      level[i] = dot(n, x[i]);
+      low = std::min(low, level[i]), high = std::max(high, level[i]);
+    }
     for (const Polytope::Facet& f : cell.facets()) {
       const Vec3 S = facet_area<dim>(x, f);
       Levels<dim> q;
-      for (std::size_t i = 0; i < dim; ++i) q[i] = levels[f[i]];
+      for (std::size_t i = 0; i < dim; ++i) q[i] = level[f[i]];
       items[n_items++] = {sorted(q), dot(x[f[0]], S), dot(n, S)};
       whole += dot(x[f[0]], S) / dim;
     }
-    std::sort(levels.begin(), levels.begin() + n_levels);
   }
 
-  Real below(Real s) const {
-    Real sum = 0;
+  /// By Gauss's theorem, with the parts a_f of the facets below the level s:
+  ///   V(s) = (1/dim) sum_f a_f (x - s n) . S,   dV/ds = A(s) = -sum_f a_f n . S
+  Below below(Real s) const {
+    Real volume = 0, area = 0;
     for (int i = 0; i < n_items; ++i) {
-      sum += part_below(items[i].q, s) * (items[i].xS - s * items[i].nS);
+      const Real part = part_below(items[i].q, s);
+      volume += part * (items[i].xS - s * items[i].nS);
+      area -= part * items[i].nS;
     }
-    return sum / dim;
+    return {volume / dim, area};
   }
 };
 
-/// A cubic on [0, 1] by its values at 0, 1/3, 2/3, 1, in Newton's form
-///   y0 + t (c1 + (t - 1/3) (c2 + (t - 2/3) c3)).
-struct Cubic {
-  Real y0, c1, c2, c3;
-
-  explicit Cubic(const std::array<Real, 4>& y)
-      : y0(y[0]),
-        c1(3 * (y[1] - y[0])),
-        c2(4.5 * (y[2] - 2 * y[1] + y[0])),
-        c3(4.5 * (y[3] - 3 * y[2] + 3 * y[1] - y[0])) {}
-
-  Real value(Real t) const { return y0 + t * (c1 + (t - 1.0 / 3) * (c2 + (t - 2.0 / 3) * c3)); }
-  Real slope(Real t) const {
-    const Real inner = c2 + (t - 2.0 / 3) * c3;
-    return c1 + (t - 1.0 / 3) * inner + t * (inner + (t - 1.0 / 3) * c3);
-  }
-  /// The root, for one that rises from y(0) <= 0 to y(1) >= 0: Newton's steps held in the bracket.
-  Real root() const {
-    Real low = 0, high = 1, t = 0.5;
-    for (int i = 0; i < 60; ++i) {
-      const Real y = value(t);
-      (y < 0 ? low : high) = t;
-      const Real next = t - y / slope(t);
-      if (std::abs(next - t) < 1e-15) break;
-      t = next > low && next < high ? next : 0.5 * (low + high);
-    }
-    return t;
-  }
-};
-
-/// The level with V(s) = target: between two neighbouring corner levels V is a polynomial of degree
-/// dim: bisection over corners, interpolation, and Newton's steps on V itself.
-template <int dim>
-Real level_at(const Profile<dim>& profile, Real target) {
-  int low = 0, high = profile.n_levels - 1;
-  Real y_low = -target, y_high = profile.whole - target;
-  while (high - low > 1) {
-    const int mid = (low + high) / 2;
-    const Real y = profile.below(profile.levels[mid]) - target;
-    (y < 0 ? low : high) = mid;
-    (y < 0 ? y_low : y_high) = y;
-  }
-  const Real a = profile.levels[low], b = profile.levels[high], third = (b - a) / 3;
-  const Cubic cubic(
-      {y_low, profile.below(a + third) - target, profile.below(b - third) - target, y_high});
-  const Real t = cubic.root();
-  const Real slope = cubic.slope(t) / (b - a);
-  Real s = a + (b - a) * t;
-  for (int i = 0; i < 2 && slope > 0; ++i) {
-    const Real y = profile.below(s) - target;
-    if (std::abs(y) <= 2e-16 * profile.whole) break;
-    s = std::clamp(s - y / slope, a, b);
-  }
-  return s;
-}
-
+/// The level with V(s) = fraction V, by Newton's method within a bracket. In a convex cell
+/// V^(1/dim) is a concave function of s (Brunn and Minkowski). So the root lies between
+/// fraction / dim and fraction^(1/dim) of the way from the lowest corner to the highest one.
 template <int dim>
 Plane plane_of(const Polytope& cell, const Vec3& n, Real fraction) {
+  constexpr int rounds = 80;      // the interval is halved in a round at worst
+  constexpr Real nearly = 1e-13;  // of the volume: the next step ends at round-off
   const Profile<dim> profile(cell, n);
-  return {n, level_at(profile, fraction * profile.whole)};
+  Real low = profile.low, high = profile.high;
+  const Real most = dim == 2 ? std::sqrt(fraction) : std::cbrt(fraction);
+  Real s = low + (high - low) * (fraction / dim + most) / 2;
+  for (int i = 0; i < rounds; ++i) {
+    const Below at = profile.below(s);
+    const Real off = at.measure - fraction * profile.whole;
+    (off < 0 ? low : high) = s;
+    const Real next = s - off / at.area;
+    s = next >= low && next <= high ? next : (low + high) / 2;
+    if (std::abs(off) <= nearly * profile.whole) break;
+  }
+  return {n, s};
 }
 
 /// Where the edge from a to b passes level s; qa and qb lie on different sides.
@@ -251,10 +219,12 @@ Real measure(const Polytope& cell) {
   return sum / cell.dim();
 }
 
-Real measure_below(const Polytope& cell, const Plane& plane) {
+Below below(const Polytope& cell, const Plane& plane) {
   return cell.dim() == 2 ? Profile<2>(cell, plane.n).below(plane.s)
                          : Profile<3>(cell, plane.n).below(plane.s);
 }
+
+Real measure_below(const Polytope& cell, const Plane& plane) { return below(cell, plane).measure; }
 
 Plane plane_at(const Polytope& cell, const Vec3& n, Real fraction) {
   const bool flip = fraction > 0.5;  // the smaller part has the smaller error

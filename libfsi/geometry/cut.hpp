@@ -81,7 +81,16 @@ class Polytope {
 /// Area or volume.
 Real measure(const Polytope& cell);
 
-/// Area or volume below the plane; its error is a few units of round-off of the cell's.
+/// What lies below a plane, and how it changes with the plane's s.
+struct Below {
+  Real measure = 0;  ///< area in 2-D, volume in 3-D
+  Real area = 0;     ///< of the cut: the derivative of measure by s
+};
+
+/// The part of a cell below the plane; its error is a few units of round-off of the cell's.
+Below below(const Polytope& cell, const Plane& plane);
+
+/// Its area or volume alone.
 Real measure_below(const Polytope& cell, const Plane& plane);
 
 /// The plane of normal n (unit) with the part `fraction` in (0, 1) of the cell below it, to a few

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -22,8 +21,8 @@ Index Pieces::root(Index c) {
 }
 
 void Pieces::find(const CellField<Real>& alpha) {
-  std::iota(parent_.begin(), parent_.end(), Index{0});
-  for (Index c = 0; c < mesh_.n_cells; ++c) number_[c] = static_cast<Real>(mesh_.global_id[c]);
+  for (Index c = 0; c < mesh_.n_cells; ++c)
+    if (inside(alpha[c])) parent_[c] = c, number_[c] = static_cast<Real>(mesh_.global_id[c]);
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     if (!inside(alpha[c])) continue;
     for (const Index n : mesh_.cell_neighbours[c])

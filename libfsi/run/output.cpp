@@ -211,9 +211,9 @@ bool Output::go_on() {
   return !interrupted_ && solver_.report().failure.empty();
 }
 
-Real Output::next_event() const {
+Events Output::next_event() const {
   const Real t = solver_.state().t;
-  return std::min({samples_.next_event(t), field_.next(t), checkpoint_.next(t)});
+  return {.hit = std::min(field_.next(t), checkpoint_.next(t)), .not_past = samples_.not_past(t)};
 }
 
 Limit Output::count(const Limit& limit, Real dt) {
@@ -256,8 +256,16 @@ void Output::write_due(const Limit& asked, Real dt) {
 /// Of all tables.
 std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   const State& s = solver_.state();
-  const Real t_shape = solver_.body() != nullptr ? solver_.body()->t : s.t;
-  std::vector<Row> all{{s.t, t_shape, flow_row(solver_, limit, dt, wall_per_step)}};
+  std::vector<Row> all{{s.t, solver_.body() != nullptr ? solver_.body()->t : s.t, {}}};
+  Real elastic_energy = 0;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const Body& body = solver_.bodies()[i];
+    all.push_back({s.t, body.t, {}});
+    if (body.gone != 0) continue;
+    all.back().entries = records_[i].row(solver_, body);
+    elastic_energy += records_[i].soundness().elastic_energy;
+  }
+  all[0].entries = flow_row(solver_, elastic_energy, limit, dt, wall_per_step);
   all[0].entries.push_back({"work", energy_.work()});
   all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
   const bool started = s.step > first_step_ + EnergyBalance::start;
@@ -267,23 +275,17 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   if (s.step == 0)
     for (Entry& entry : all[0].entries)
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
-  for (std::size_t i = 0; i < records_.size(); ++i) {
-    const Body& body = solver_.bodies()[i];
-    all.push_back({s.t, body.t, {}});
-    if (body.gone != 0) continue;
-    all.back().entries = records_[i].row(solver_, body);
-    watch_.strain(i, solver_, records_[i].soundness());
-  }
+  for (std::size_t i = 0; i < records_.size(); ++i)
+    if (solver_.bodies()[i].gone == 0) watch_.strain(i, solver_, records_[i].soundness());
   return all;
 }
 
 void Output::write_rows(const Limit& limit, Real dt) {
   const State& s = solver_.state();
   const std::vector<Real> times = samples_.due(s.t);
-  // The clock looks two steps ahead, and the next one is longer by less than half. If it were
-  // longer, it would end at the row.
-  constexpr Real steps_ahead = 3;
-  const bool near = samples_.near(s.t, steps_ahead * std::max(dt, limit.dt));
+  // A next step that is longer still ends at the row.
+  constexpr Real longer = 1.25;
+  const bool near = samples_.near(s.t, longer * std::max(dt, limit.dt));
   std::vector<Row> now;
   if (near || !times.empty()) {
     const Real seconds = stopwatch_.seconds();

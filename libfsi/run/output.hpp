@@ -55,7 +55,7 @@ class Output {
   /// the end was asked for. Errors: Error{input} if a solid was put in since.
   bool go_on();
   /// Time of the next event that a step must hit.
-  Real next_event() const;
+  Events next_event() const;
   /// Collective. Call after every step of length dt, 0 if it failed: writes what is due. Errors:
   /// those of the files, after a checkpoint and summary.json are written, as far as possible;
   /// Error{input} if a solid was put in since.

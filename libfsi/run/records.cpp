@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "libfsi/analysis/measures.hpp"
 #include "libfsi/analysis/ring.hpp"
@@ -38,10 +39,10 @@ Real flow_rate(const Solver& solver, const Patch& patch) {
   return sum.total();
 }
 
-Real flow_rate(const Solver& solver) {
+Real flow_rate(const Solver& solver, Real mean_velocity) {
   const Mesh& mesh = solver.mesh();
   const Real length = period(solver);
-  if (length > 0) return solver.mean_velocity() * mesh.total_volume / length;
+  if (length > 0) return mean_velocity * mesh.total_volume / length;
   const Patch* outlet = find(mesh, "outlet");
   if (outlet == nullptr) return 0;
   return flow_rate(solver, *outlet);
@@ -210,8 +211,9 @@ Real surface_area(const Body& body) {
   return area.total();
 }
 
-Real elastic_energy(const Body& body) {
-  CellField<SymTensor> B = B_field(body, body.mesh);
+Real elastic_energy(const Body& body) { return elastic_energy(body, B_field(body, body.mesh)); }
+
+Real elastic_energy(const Body& body, CellField<SymTensor> B) {
   // With left_cauchy_green det B drifts, so the energy is that of B / (det B)^(1/dim).
   if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
     for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
@@ -232,10 +234,10 @@ Real shape_energy(const Body& body) {
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
-std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step) {
+std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& limit, Real dt,
+                            Real wall_per_step) {
   const Mesh& mesh = solver.mesh();
-  Real elastic = 0;
-  for (const Body& body : solver.bodies()) elastic += elastic_energy(body);
+  const Real mean_velocity = solver.mean_velocity();
   std::vector<Entry> row{
       {"t", solver.state().t},
       {"dt", dt, Course::step},
@@ -245,11 +247,11 @@ std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wa
       {"pressure_gradient", solver.driving_gradient(), Course::pressure},
       {"pressure_drop", pressure_drop(solver), Course::pressure},
       {"pressure_span", pressure_span(solver), Course::pressure},
-      {"flow_rate", flow_rate(solver)},
-      {"mean_velocity", solver.mean_velocity()},
+      {"flow_rate", flow_rate(solver, mean_velocity)},
+      {"mean_velocity", mean_velocity},
       {"divergence_max", flow::divergence_max(solver.state().phi, mesh), Course::step},
       {"kinetic_energy", kinetic_energy(solver)},
-      {"elastic_energy", elastic, Course::energy},
+      {"elastic_energy", elastic_energy, Course::energy},
       {"dissipation", dissipation(solver)},
       {"rejected_steps", static_cast<Real>(solver.report().rejected), Course::step},
       {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
@@ -273,7 +275,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const analysis::Orientation o = analysis::orientation(whole, middle, orientation_);
   turned_ += analysis::turn_about_z(orientation_.n, o.n);
   orientation_ = o;
-  const analysis::Health h = analysis::health(B_field(body, mesh), body.alpha, mesh);
+  CellField<SymTensor> B = B_field(body, mesh);
+  const analysis::Health h = analysis::health(B, body.alpha, mesh);
   if (volume_0_ == 0) volume_0_ = m.volume + body.volume_out;
   drift_ = (m.volume + body.volume_out) / volume_0_ - 1;
   constexpr Real piece = 0.01;  // of the first volume: smaller ones are not counted
@@ -281,7 +284,7 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   pieces.find(body.alpha);
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,
                 .pieces = pieces.count(body.alpha, piece * volume_0_),
-                .elastic_energy = elastic_energy(body),
+                .elastic_energy = elastic_energy(body, std::move(B)),
                 .shape_energy = shape_energy(body)};
   std::vector<Entry> row{{"t", solver.state().t}};
   add(row, {"x", "y", "z"}, m.centroid + ahead * m.velocity);

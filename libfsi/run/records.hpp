@@ -18,7 +18,8 @@ std::vector<std::string> names(const std::vector<Entry>& row);
 /// The numbers.
 std::vector<Real> values(const std::vector<Entry>& row);
 
-/// Collective. A row of flow.csv, for the flow after a step of length dt.
+/// Collective. A row of flow.csv, for the flow after a step of length dt. elastic_energy: of all
+/// solids.
 /// - pressure_drop: between the patches inlet and outlet, S times the period in a periodic channel.
 /// - pressure_span: max p - min p of the cells without solid.
 /// - dissipation: integral 2 mu D : D, mu by the fractions of the cell.
@@ -33,7 +34,8 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// the patch.
 /// - reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in 2-D the width) of
 /// the patch where it is largest.
-std::vector<Entry> flow_row(Solver& solver, const Limit& limit, Real dt, Real wall_per_step);
+std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& limit, Real dt,
+                            Real wall_per_step);
 
 /// Figures by which the result of a solid is judged.
 struct Soundness {
@@ -82,6 +84,8 @@ Real surface_area(const Body& body);
 
 /// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
 Real elastic_energy(const Body& body);
+/// The same with the B of `B_field`.
+Real elastic_energy(const Body& body, CellField<SymTensor> B);
 /// Collective. Elastic energy of the strain that the map gives, of the memory or of the map
 /// kinematics; 0 without one.
 Real shape_energy(const Body& body);

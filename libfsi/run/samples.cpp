@@ -65,7 +65,7 @@ std::vector<Real> Samples::due(Real t) {
   return each_step_ ? std::vector<Real>{t} : every_.reached(t);
 }
 
-Real Samples::next_event(Real t) const {
+Real Samples::not_past(Real t) const {
   return each_step_ || !held_.empty() ? std::numeric_limits<Real>::max() : every_.next(t);
 }
 

@@ -51,8 +51,8 @@ class Samples {
   std::vector<Real> due(Real t);
   /// Whether a row may fall into a next step no longer than `reach`: then hold().
   bool near(Real t, Real reach) const { return each_step_ || every_.next(t) <= t + reach; }
-  /// Time at which the step from t must end because of the rows; none if rows are held.
-  Real next_event(Real t) const;
+  /// The time that the step from t must not pass: that of the next row if none are held.
+  Real not_past(Real t) const;
   /// The row of table `i` at t, a time due in the step that led from the rows held to `now`.
   std::vector<Real> row(std::size_t i, const Row& now, Real t) const;
   /// Holds these rows; none: holds nothing.

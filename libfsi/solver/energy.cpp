@@ -88,20 +88,28 @@ void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
   }
 }
 
+// V u = sum_f sigma phi (x_f - x_c), from the fluxes of the faces. It is exact for a uniform force,
+// whose work is zero without inflow. The sum over the cells of S . V u is one over faces of phi S .
+// d.
 void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
-  const Vec3 S = solver.driving_gradient() * solver.axis();
+  Sum of_gradient;
+  if (const Vec3 S = solver.driving_gradient() * solver.axis(); norm2(S) > 0)
+    for (Index f = 0; f < mesh.n_faces; ++f)
+      if (mesh.owner[f] < mesh.n_owned) of_gradient.add(state.phi[f] * dot(S, mesh.d[f]));
+  power.add(of_gradient);
+  const bool heavy =
+      std::ranges::any_of(solver.bodies(), [](const Body& body) { return norm2(body.weight) > 0; });
+  if (!solver.driving_force() && !heavy) return;
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    // V u from the fluxes of the faces. It is exact for a uniform force, whose work is zero without
-    // inflow.
     Vec3 moved;
     for (const Index face : mesh.cell_faces[c])
       moved += (outward(mesh, face, c) * state.phi[face]) * (mesh.face_centre(face, c) - mesh.C[c]);
     Vec3 f, weight;
     if (solver.driving_force()) f = solver.driving_force()(mesh.C[c], state.t);
     for (const Body& body : solver.bodies()) weight += body.alpha[c] * body.weight;
-    power.add(dot(S + f, moved) + mesh.V[c] * dot(weight, state.u[c]));
+    power.add(dot(f, moved) + mesh.V[c] * dot(weight, state.u[c]));
     force.add(mesh.V[c] * norm(f + weight));
   }
 }

@@ -80,10 +80,11 @@ void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, cons
     const Index c = s.cells[i];
     gather(s.cell, mesh, c);
     const geometry::Plane plane{s.planes[i].n, s.planes[i].s + shift};
-    const Real asked = geometry::measure_below(s.cell, plane) / mesh.V[c] - alpha[c];
+    const geometry::Below below = geometry::below(s.cell, plane);
+    const Real asked = below.measure / mesh.V[c] - alpha[c];
     s.change[i] = s.weight[i] * std::clamp(asked, -most, most);
     sums[0].add(mesh.V[c] * s.change[i]);
-    if (std::abs(asked) < most) sums[1].add(s.weight[i] * geometry::cut(s.cell, plane).area);
+    if (std::abs(asked) < most) sums[1].add(s.weight[i] * below.area);
   }
   Sum::totals(totals, sums);
 }

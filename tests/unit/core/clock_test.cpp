@@ -27,6 +27,15 @@ TEST(Clock, StepsLandOnEventsAndOnTheEnd) {
   EXPECT_NEAR(clock.t(), 1, 1e-14);
 }
 
+TEST(Clock, AStepIsNotSplitForATimeThatItMustNotPass) {
+  const Clock clock(1);
+  const auto step = [&](Real limit, Real not_past) { return clock.step(limit, {1, not_past}); };
+  EXPECT_EQ(step(0.1, 0.15), 0.1) << "up to there";
+  EXPECT_EQ(step(0.2, 0.15), 0.15);
+  EXPECT_EQ(step(0.8, 0.15), 0.15);
+  EXPECT_EQ(step(0.8, 0.7), 0.5) << "half of the way to the end";
+}
+
 TEST(Clock, AnEventWithoutIntervalNeverFires) {
   Schedule event(0);
   EXPECT_FALSE(event.due(0));

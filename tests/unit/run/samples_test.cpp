@@ -90,16 +90,16 @@ TEST(Samples, TheAxisStaysAUnitVectorAndTheAngleItsOwn) {
 
 TEST(Samples, AStepPassesARowOnlyWhereOneIsHeld) {
   Samples samples(0.25);
-  EXPECT_EQ(samples.next_event(0), 0.25);
+  EXPECT_EQ(samples.not_past(0), 0.25);
   EXPECT_FALSE(samples.near(0, 0.2));
   EXPECT_TRUE(samples.near(0, 0.3));
   samples.hold({row_at(0, 0)});
-  EXPECT_GT(samples.next_event(0), 1e300);
+  EXPECT_GT(samples.not_past(0), 1e300);
   EXPECT_EQ(samples.due(0.8), (std::vector<Real>{0.25, 0.5, 0.75}));
   EXPECT_TRUE(samples.due(0.8).empty());
   EXPECT_EQ(samples.last(0.8), 0.75);
   Samples each(0);
-  EXPECT_GT(each.next_event(0), 1e300);
+  EXPECT_GT(each.not_past(0), 1e300);
   EXPECT_EQ(each.due(0.8), std::vector<Real>{0.8});
 }
 
