@@ -21,40 +21,42 @@ Index Pieces::root(Index c) {
 }
 
 void Pieces::find(const CellField<Real>& alpha) {
+  cells_.clear();
   for (Index c = 0; c < mesh_.n_cells; ++c)
-    if (inside(alpha[c])) parent_[c] = c, number_[c] = static_cast<Real>(mesh_.global_id[c]);
-  for (Index c = 0; c < mesh_.n_owned; ++c) {
-    if (!inside(alpha[c])) continue;
+    if (inside(alpha[c])) {
+      cells_.push_back(c);
+      parent_[c] = c, number_[c] = static_cast<Real>(mesh_.global_id[c]);
+    }
+  for (const Index c : cells_) {
+    if (c >= mesh_.n_owned) break;
     for (const Index n : mesh_.cell_neighbours[c])
       if (inside(alpha[n])) parent_[root(c)] = root(n);
   }
-  spread(alpha);
+  spread();
   Real least = static_cast<Real>(mesh_.n_global), most = -1;
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    if (inside(alpha[c])) least = std::min(least, number_[c]), most = std::max(most, number_[c]);
+  for (const Index c : cells_)
+    least = std::min(least, number_[c]), most = std::max(most, number_[c]);
   several_ = global_min(least) < global_max(most);
 }
 
 // Gives every cell inside the least global number of its piece. Each rank first has that of its own
 // part. Smaller numbers of neighbours then pass from rank to rank until no number changes.
-void Pieces::spread(const CellField<Real>& alpha) {
+void Pieces::spread() {
   bool falls = true;
   while (falls) {
     falls = false;
-    for (Index c = 0; c < mesh_.n_cells; ++c) {
-      if (!inside(alpha[c])) continue;
+    for (const Index c : cells_) {
       Real& of_set = number_[root(c)];
       of_set = std::min(of_set, number_[c]);
     }
-    for (Index c = 0; c < mesh_.n_cells; ++c) {
-      if (!inside(alpha[c])) continue;
+    for (const Index c : cells_) {
       const Real least = number_[root(c)];
       falls = falls || least < number_[c];
       number_[c] = least;
     }
     mesh_.halo.update(number_);
-    for (Index c = mesh_.n_owned; c < mesh_.n_cells; ++c)
-      falls = falls || (inside(alpha[c]) && number_[c] < number_[root(c)]);
+    for (const Index c : cells_)
+      falls = falls || (c >= mesh_.n_owned && number_[c] < number_[root(c)]);
     falls = !all_of_ranks(!falls);
   }
 }

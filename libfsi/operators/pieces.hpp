@@ -33,11 +33,12 @@ class Pieces {
     Real number, volume;
   };
   Index root(Index c);
-  void spread(const CellField<Real>& alpha);
+  void spread();
   /// Collective. The volume of each piece. Allocates, as do its callers.
   std::vector<Volume> volumes(const CellField<Real>& alpha) const;
 
   const Mesh& mesh_;
+  std::vector<Index> cells_;   // with alpha > 1/2, owned and halo, ascending
   std::vector<Index> parent_;  // of a rank's cells that were found to hang together
   CellField<Real> number_;     // of the piece: the least global number of its cells
   bool several_ = false;
