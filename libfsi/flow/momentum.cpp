@@ -23,6 +23,13 @@ ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const
   return boundary;
 }
 
+/// omega of the boundary faces; empty: there is none.
+std::span<const Real> shares(const MomentumTerms& terms) {
+  if (terms.parabola == nullptr) return {};
+  const BoundaryField<Real>& share = terms.parabola->share();
+  return {share.data(), static_cast<std::size_t>(share.size())};
+}
+
 /// The least of the first dim components.
 Real least(const Vec3& v, Index dim) {
   const Real xy = std::min(v.x, v.y);
@@ -147,7 +154,12 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
       const Real rho = terms.rho ? (*terms.rho)[c][static_cast<int>(i)] : rho_;
       A.diagonal[c * dim + i] = rho * mesh_.V[c] / dt;
     }
-  add_diffusion([&](Index f) { return theta_f_[f] * mu[f] + kappa[f]; });
+  const std::span<const Real> parabola = shares(terms);
+  add_diffusion([&](Index f) {
+    const Index b = f - mesh_.n_internal;
+    const Real whole = b < 0 || parabola.empty() ? 1 : 1 + parabola[static_cast<std::size_t>(b)];
+    return whole * theta_f_[f] * mu[f] + kappa[f];
+  });
   system_.renewed();
 }
 
@@ -194,14 +206,15 @@ void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& ter
       rhs_[c] -= (rho_ * w[0]) * last[c];
 }
 
-void Momentum::add_rest(const MomentumTerms& terms, Real dt) {
-  if (!weights_.uneven && !terms.mu_varies) return;
+void Momentum::add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
+  if (!weights_.uneven && !terms.mu_varies && terms.parabola == nullptr) return;
   const auto w = adams_bashforth(dt, dt_old, 0, 0);
   const Real share = extrapolated(dt);
   CellField<Vec3>& rest = history_.rest;
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += w[1] * rest[c];
   rest.fill({});
   viscous_oblique(rest, terms.mu, terms.L_f, boundary_, weights_, mesh_);
+  if (terms.parabola != nullptr) terms.parabola->add_slopes(rest, terms.mu, u, terms.u_b);
   if (terms.mu_varies) viscous_transposed(rest, terms.mu, mu_0_, terms.L, boundary_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     rhs_[c] += (1 - share + w[0] * share) * rest[c];
@@ -210,21 +223,24 @@ void Momentum::add_rest(const MomentumTerms& terms, Real dt) {
 }
 
 void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
-  viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
+  const std::span<const Real> parabola = shares(terms);
+  viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_, parabola);
   if (!old_) return;
   if (steps_taken >= damped_steps && (whole_past_ || theta_at(dt) == 0.5))
     viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, old_->u, old_->u_b, boundary_,
-                 weights_, mesh_);
+                 weights_, mesh_, parabola);
   old_->u.assign(u);
 }
 
 void Momentum::add_sources(const MomentumTerms& terms) {
   for (Index c = 0; c < mesh_.n_owned; ++c)
     rhs_[c] += mesh_.V[c] * (terms.force[c] + terms.body - terms.grad_p[c]);
+  const std::span<const Real> parabola = shares(terms);
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
     const Index b = f - mesh_.n_internal;
+    const Real whole = parabola.empty() ? 1 : 1 + parabola[static_cast<std::size_t>(b)];
     if (boundary_.open[b] == 0)
-      rhs_[mesh_.owner[f]] += (theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f] *
+      rhs_[mesh_.owner[f]] += (whole * theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f] *
                               (terms.u_b_new[b] - terms.u_b[b]);
   }
 }
@@ -233,12 +249,13 @@ int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   const std::array now{steps_taken < damped_steps ? 1.0 : theta_at(dt), dt};
   if (assembled_[0] != now[0]) set_theta(now[0]);
   raise_theta(terms, now[0], dt);
-  if (terms.mu_varies || terms.stiff || terms.rho || assembled_ != now) assemble(terms, dt);
+  const bool varies = terms.mu_varies || terms.stiff || terms.rho || terms.parabola_varies;
+  if (varies || assembled_ != now) assemble(terms, dt);
   assembled_ = now;
 
   rhs_.fill({});
   add_convection(u, terms, dt);
-  add_rest(terms, dt);
+  add_rest(u, terms, dt);
   add_compact(u, terms, dt);
   add_sources(terms);
 

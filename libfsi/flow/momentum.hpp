@@ -12,6 +12,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/flow/convection.hpp"
 #include "libfsi/flow/viscous.hpp"
+#include "libfsi/flow/wall_parabola.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/linear_system_vector.hpp"
 
@@ -45,6 +46,8 @@ struct MomentumTerms {
   Real explicit_courant = std::numeric_limits<Real>::max();
   /// Irregular faces with a one-sided L_f beside a surface. If there may be such faces, `stiff`.
   std::span<const Index> one_sided{};
+  const WallParabola* parabola = nullptr;  ///< of the walls; none: their derivative by differences
+  bool parabola_varies = false;            ///< its omega does in time
 };
 
 /// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
@@ -124,7 +127,7 @@ class Momentum {
   /// Takes back what it raised the last time.
   void raise_theta(const MomentumTerms& terms, Real theta_now, Real dt);
   void add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
-  void add_rest(const MomentumTerms& terms, Real dt);
+  void add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_sources(const MomentumTerms& terms);
   void assemble(const MomentumTerms& terms, Real dt);

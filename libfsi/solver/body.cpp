@@ -211,6 +211,7 @@ void Body::list(io::Snapshot& snapshot) {
   snapshot.add(of + "solid_t", &t);
   snapshot.add(of + "solid_volume_out", &volume_out);
   snapshot.add(of + "solid_gone", &gone);
+  snapshot.add(of + "solid_residue", &residue);
   snapshot.add(of + "solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add(of + "Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add(of + "psi", k->psi);

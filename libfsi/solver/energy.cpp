@@ -47,6 +47,7 @@ void EnergyBalance::set_power_and_stored(const Solver& solver) {
   std::array<Sum, 3> sums;
   add_power(sums[0], sums[2], solver);
   add_power_of_boundary(sums[0], solver);
+  add_power_of_parabola(sums[0], solver);
   add_kinetic_energy(sums[1], solver);
   for (const Body& body : solver.bodies())
     body.law.add_energy(sums[1], body.G, body.B, body.alpha, solver.mesh());
@@ -111,6 +112,18 @@ void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
     for (const Body& body : solver.bodies()) weight += body.alpha[c] * body.weight;
     power.add(dot(f, moved) + mesh.V[c] * dot(weight, state.u[c]));
     force.add(mesh.V[c] * norm(f + weight));
+  }
+}
+
+void EnergyBalance::add_power_of_parabola(Sum& sum, const Solver& solver) const {
+  const Mesh& mesh = solver.mesh();
+  const CellField<Vec3>& u = solver.state().u;
+  const flow::WallParabola& parabola = solver.wall_parabola();
+  for (std::size_t i = 0; i < parabola.walls().size(); ++i) {
+    const Index b = parabola.walls()[i], f = mesh.n_internal + b;
+    if (norm2(u_b_[b]) == 0) continue;
+    const Vec3 difference = solver.weights().g[f] * (u_b_[b] - u[mesh.owner[f]]);
+    sum.add(solver.mu()[f] * dot(parabola.derivative(i, u, u_b_) - difference, u_b_[b]));
   }
 }
 

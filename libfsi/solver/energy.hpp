@@ -49,6 +49,8 @@ class EnergyBalance {
   void set_power_and_stored(const Solver& solver);
   static void add_power(Sum& power, Sum& force, const Solver& solver);
   void add_power_of_boundary(Sum& sum, const Solver& solver);
+  /// What the parabola of the walls adds to mu g (u_b - u_P) . u_b.
+  void add_power_of_parabola(Sum& sum, const Solver& solver) const;
 
   BoundaryField<Vec3> u_b_;
   Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;

@@ -184,6 +184,12 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   body.update_B();
 }
 
+void Solver::set_wall_parabola() {
+  if (bodies_.empty()) return;
+  wall_parabola_.reset();
+  for (const Body& body : bodies_) wall_parabola_.keep_off(body.alpha, body.band.cells());
+}
+
 void Solver::mix_viscosity(FaceField<Real>& mu) {
   const Profile::Call call(profile_, calls_.mix_viscosity);
   if (modes_.mu_varies && bodies_.size() == 1) {
@@ -199,6 +205,7 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
     }
     flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
   }
+  set_wall_parabola();
   if (!modes_.films) return;
   if (!modes_.mu_varies)
     std::fill(mu.data() + mesh_.n_internal, mu.data() + mesh_.n_faces, physics_.mu_f);

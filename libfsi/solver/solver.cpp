@@ -79,6 +79,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       loads_(mesh, projection_, openings_, physics.rho),
       bulk_friction_(mesh, projection_, openings_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
+      wall_parabola_(mesh, conditions_, u_stencil_),
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
@@ -226,7 +227,9 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .rho = heavy_ ? &heavy_->density.inertia() : nullptr,
                                   .body = driving_gradient() * axis_,
                                   .explicit_courant = explicit_courant(),
-                                  .one_sided = interface_faces_};
+                                  .one_sided = interface_faces_,
+                                  .parabola = &wall_parabola_,
+                                  .parabola_varies = !bodies_.empty()};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 

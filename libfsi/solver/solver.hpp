@@ -149,6 +149,8 @@ class Solver {
   const FaceField<Real>& mu() const { return mu_; }
   /// Weights of the faces.
   const FaceWeights& weights() const { return weights_; }
+  /// The velocity's derivative at the walls, of the last step.
+  const flow::WallParabola& wall_parabola() const { return wall_parabola_; }
   /// Force per volume on fluid and solid; empty where there is none.
   const std::function<Vec3(const Vec3&, Real)>& driving_force() const { return driving_force_; }
   /// What is given at an opening in the middle of the last step, behind its load's answer.
@@ -254,6 +256,8 @@ class Solver {
   bool needs_L() const {
     return weights_.uneven || momentum_.reads_L() || modes_.mu_varies || modes_.one_sided;
   }
+  /// omega of the walls beside the solids.
+  void set_wall_parabola();
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
   /// The Courant number per time that limits a step.
@@ -305,6 +309,7 @@ class Solver {
   flow::BulkFriction bulk_friction_;
   Real friction_ = 0;  // of flow along the walls, per viscosity; 0: none is needed
   flow::Momentum momentum_;
+  flow::WallParabola wall_parabola_;
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
   Modes modes_;

@@ -170,6 +170,7 @@ TEST(Cut, AreaIsTheDerivativeAndTheCentreTheTurningPoint) {
     const Real slope =
         (measure_below(cell, {n, plane.s + e}) - measure_below(cell, {n, plane.s - e})) / (2 * e);
     ASSERT_NEAR(part.area, slope, 1e-3 * V / size);
+    ASSERT_NEAR(below(cell, plane).area, part.area, 1e-13);
     // Turned about its centroid the plane keeps the volume below it to first order.
     Vec3 t = cell.dim() == 3 ? cross(n, any_normal(random, 3)) : Vec3{-n.y, n.x, 0};
     const Real angle = 1e-5;

@@ -82,6 +82,35 @@ TEST(Leaving, AResidueWithoutAHalfFullCellLeavesWithTheRest) {
   }
 }
 
+// A cell that is more than half full stays if it holds a hundredth of the disc, and leaves with the
+// rest if it holds less.
+TEST(Leaving, AHundredthStays) {
+  for (const Real part : {0.008, 0.012}) {
+    const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
+    const FixedVelocity wind{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.1},
+        {.conditions = {
+             {"left", wind}, {"right", Opening{0}}, {"bottom", Slip{}}, {"top", Slip{}}}});
+    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.3), {1, 0.5, 0}), .G = 1, .mu = 0.1});
+    Body& body = *solver.body();
+    for (int i = 0; i < 30; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const bool kept = norm(mesh.C[c] - Vec3{1.28, 0.53, 0}) < 0.04;
+      body.alpha[c] = kept ? part * body.filled.volume / mesh.V[c] : 0;
+      if (kept) EXPECT_GT(body.alpha[c], 0.5);
+    }
+    mesh.halo.update(body.alpha);
+    const Real left = volume(solver);
+    ASSERT_NEAR(left, part * body.filled.volume, 1e-12) << "one cell";
+    EXPECT_EQ(body.count_out(), part < 0.01);
+    EXPECT_EQ(body.gone, part < 0.01 ? 1 : 0);
+    EXPECT_NEAR(volume(solver), part < 0.01 ? 0 : left, 1e-12);
+  }
+}
+
 // Half a disc on a plane of symmetry is half of a disc.
 TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
   const auto run = [](Index n, Real height, Real middle, bool half) {

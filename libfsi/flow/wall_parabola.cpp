@@ -1,0 +1,113 @@
+#include "libfsi/flow/wall_parabola.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libfsi/operators/stencil.hpp"
+
+namespace fsi::flow {
+namespace {
+
+/// The normal of the wall in the cells that have one face on walls; else zero. Owned and halo.
+CellField<Vec3> wall_normals(const Mesh& mesh, const std::vector<Condition>& conditions) {
+  CellField<Vec3> normal(mesh);
+  std::vector<int> faces(static_cast<std::size_t>(mesh.n_cells), 0);
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (!std::holds_alternative<Wall>(conditions[i])) continue;
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      const Index P = mesh.owner[f];
+      normal[P] = ++faces[P] == 1 ? mesh.Sf[f] / norm(mesh.Sf[f]) : Vec3{};
+    }
+  }
+  mesh.halo.update(normal);
+  return normal;
+}
+
+/// 1 on a flat wall, falling to 0 as the normals around turn. An edge is not a curved wall.
+Real flatness(const CellField<Vec3>& normal, Index f, const Mesh& mesh) {
+  constexpr Real curved = 0.02, edge = 0.7;  // radian; cosine
+  const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+  Real turn = 0;
+  for (const Index c : mesh.cell_neighbours[mesh.owner[f]])
+    if (dot(normal[c], n) > edge) turn = std::max(turn, norm(normal[c] - n));
+  return std::max(Real{0}, 1 - turn / curved);
+}
+
+}  // namespace
+
+WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& conditions,
+                           const GradientStencil& stencil)
+    : mesh_(mesh), weights_(stencil.weights), share_(mesh), largest_(mesh) {
+  const CellField<Vec3> normal = wall_normals(mesh, conditions);
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (!std::holds_alternative<Wall>(conditions[i])) continue;
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
+      if (mesh.owner[f] >= mesh.n_owned || mesh.simplex(mesh.owner[f])) continue;
+      if (const Real flat = flatness(normal, f, mesh); flat > 0) add_row(f, stencil, flat);
+    }
+  }
+  for (std::size_t i = 0; i < walls_.size(); ++i) largest_[walls_[i]] = whole_[i];
+  reset();
+}
+
+// q is the square of the distance from the plane of face f.
+void WallParabola::add_row(Index f, const GradientStencil& stencil, Real flatness) {
+  const Index P = mesh_.owner[f];
+  const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]), &d = mesh_.d[f];
+  const auto q = [&](const Vec3& from_P) { return std::pow(dot(n, from_P - d), 2); };
+  const Real q_P = q({});
+  Real rise = 0;
+  for (const Index k : mesh_.cell_faces[P]) {
+    const Real weight = dot(stencil.weight(k, mesh_.owner[k] == P), d);
+    if (weight == 0) continue;
+    rise += weight * (q(outward(mesh_, k, P) * mesh_.d[k]) - q_P);
+    const bool internal = k < mesh_.n_internal;
+    terms_.push_back(
+        {internal ? beyond(mesh_, k, P) : -1, internal ? -1 : k - mesh_.n_internal, weight});
+  }
+  walls_.push_back(f - mesh_.n_internal);
+  whole_.push_back(-q_P - rise >= q_P ? flatness * q_P / (-q_P - rise) : 0);
+  begin_.push_back(static_cast<Index>(terms_.size()));
+}
+
+void WallParabola::reset() { std::copy_n(largest_.data(), mesh_.n_boundary(), share_.data()); }
+
+void WallParabola::keep_off(const CellField<Real>& alpha, std::span<const Index> cells) {
+  for (const Index c : cells)
+    for (const Index f : mesh_.cell_faces[c]) {
+      const Index b = f - mesh_.n_internal;
+      if (b < 0 || largest_[b] == 0) continue;
+      Real most = alpha[c];
+      for (const Index k : mesh_.cell_neighbours[c]) most = std::max(most, alpha[k]);
+      share_[b] = std::min(share_[b], largest_[b] * std::max(Real{0}, 1 - most));
+    }
+}
+
+Vec3 WallParabola::slope(std::size_t i, const CellField<Vec3>& u,
+                         const BoundaryField<Vec3>& u_b) const {
+  const Vec3& u_P = u[mesh_.owner[mesh_.n_internal + walls_[i]]];
+  Vec3 sum;
+  for (Index k = begin_[i]; k < begin_[i + 1]; ++k) {
+    const Term& term = terms_[k];
+    sum += term.weight * ((term.cell >= 0 ? u[term.cell] : u_b[term.face]) - u_P);
+  }
+  return sum;
+}
+
+void WallParabola::add_slopes(CellField<Vec3>& rest, const FaceField<Real>& mu,
+                              const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const {
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Index b = walls_[i], f = mesh_.n_internal + b;
+    if (share_[b] > 0)
+      rest[mesh_.owner[f]] -= (share_[b] * mu[f] * weights_.g[f]) * slope(i, u, u_b);
+  }
+}
+
+Vec3 WallParabola::derivative(std::size_t i, const CellField<Vec3>& u,
+                              const BoundaryField<Vec3>& u_b) const {
+  const Index b = walls_[i], f = mesh_.n_internal + b;
+  const Vec3 rise = u_b[b] - u[mesh_.owner[f]];
+  return weights_.g[f] * ((1 + share_[b]) * rise - share_[b] * slope(i, u, u_b));
+}
+
+}  // namespace fsi::flow
