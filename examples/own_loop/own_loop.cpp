@@ -45,7 +45,10 @@ fsi::RunStatus own_loop() {
   const std::vector<fsi::Tensor> L_f;    // at irregular faces: there are none
   const fsi::GradientStencil stencil(mesh, weights, {true, true});  // u is given on both patches
   flow::Projection projection(mesh, weights, conditions, fsi::Method::direct, 0);
+  flow::WallParabola parabola(mesh, conditions, stencil);
   flow::Momentum momentum(mesh, weights, conditions, physics.rho, physics.mu_f);
+  momentum.bound_explicit_viscosity(physics.mu_f);
+  momentum.hold_old();
   fsi::Body disc(mesh, weights, solid, physics);
   fsi::StrainByFlux by_flux(mesh);
   const fsi::FlowAround around{.u = u,
@@ -67,7 +70,8 @@ fsi::RunStatus own_loop() {
                                            .mu = mu,
                                            .kappa = kappa,
                                            .stiff = true,
-                                           .force = force};
+                                           .force = force,
+                                           .parabola = &parabola};
   const flow::FluxTerms flux_terms{
       .L_f = L_f,
       .p = p,
@@ -94,12 +98,16 @@ fsi::RunStatus own_loop() {
     fsi::set_boundary_velocity(u_b, u, conditions, t, mesh);            // (6)
     force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa);
 
-    fsi::transport_memory(disc, L, around);                     // (7)
-    fsi::transport_elastic(disc, L, around);                    // (8)
+    fsi::transport_memory(disc, L, around);   // (7)
+    fsi::transport_elastic(disc, L, around);  // (8)
+    parabola.reset();
+    parabola.keep_off(disc.alpha, disc.band.cells());           // (9)
     fsi::add_elastic_force(force, source, disc, L, around);     // (11)
     fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (12)
 
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
+    auto& old = *momentum.old();  // of the step before
+    fsi::set_boundary_velocity(old.u_b, old.u, conditions, t - momentum.dt_old, mesh);
     momentum.predict(u, momentum_terms, dt);                                      // (15)
     flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (16)
     flow::divergence(divergence, phi, mesh);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi::flow {
@@ -47,6 +48,7 @@ WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& condi
     }
   }
   for (std::size_t i = 0; i < walls_.size(); ++i) largest_[walls_[i]] = whole_[i];
+  any_ = !all_of_ranks(walls_.empty());
   reset();
 }
 

@@ -41,6 +41,8 @@ class WallParabola {
                   const BoundaryField<Vec3>& u_b) const;
   /// S . grad u of the wall i of `walls`.
   Vec3 derivative(std::size_t i, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const;
+  /// Whether a wall on some rank has an omega.
+  bool any() const { return any_; }
   /// The boundary faces with an omega, numbered from 0.
   std::span<const Index> walls() const { return walls_; }
 
@@ -60,6 +62,7 @@ class WallParabola {
   std::vector<Index> begin_{0};  // [rows + 1] of the terms
   std::vector<Term> terms_;
   BoundaryField<Real> share_, largest_;
+  bool any_ = false;
 };
 
 }  // namespace fsi::flow

@@ -78,8 +78,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
                   setup.non_orthogonal_correctors),
       loads_(mesh, projection_, openings_, physics.rho),
       bulk_friction_(mesh, projection_, openings_),
-      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       wall_parabola_(mesh, conditions_, u_stencil_),
+      momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
@@ -88,6 +88,10 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
   if (courant_.any_simplex() && !setup.orthogonal_projection)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
+  if (wall_parabola_.any()) {  // its explicit part, as the transposed term, needs theta > 1/2
+    momentum_.bound_explicit_viscosity(physics.mu_f);
+    momentum_.hold_old();
+  }
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
   if (leaves_ || forcing_)
     friction_ = flow::bulk_friction(mesh, weights_, conditions_, pressure_method(mesh));
@@ -228,7 +232,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .body = driving_gradient() * axis_,
                                   .explicit_courant = explicit_courant(),
                                   .one_sided = interface_faces_,
-                                  .parabola = &wall_parabola_,
+                                  .parabola = wall_parabola_.any() ? &wall_parabola_ : nullptr,
                                   .parabola_varies = !bodies_.empty()};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }

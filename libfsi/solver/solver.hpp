@@ -308,8 +308,8 @@ class Solver {
   flow::Loads loads_;
   flow::BulkFriction bulk_friction_;
   Real friction_ = 0;  // of flow along the walls, per viscosity; 0: none is needed
-  flow::Momentum momentum_;
   flow::WallParabola wall_parabola_;
+  flow::Momentum momentum_;
   std::optional<flow::Forcing> forcing_;
   std::deque<Body> bodies_;
   Modes modes_;

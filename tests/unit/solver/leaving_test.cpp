@@ -100,7 +100,9 @@ TEST(Leaving, AHundredthStays) {
     for (Index c = 0; c < mesh.n_owned; ++c) {
       const bool kept = norm(mesh.C[c] - Vec3{1.28, 0.53, 0}) < 0.04;
       body.alpha[c] = kept ? part * body.filled.volume / mesh.V[c] : 0;
-      if (kept) EXPECT_GT(body.alpha[c], 0.5);
+      if (kept) {
+        EXPECT_GT(body.alpha[c], 0.5);
+      }
     }
     mesh.halo.update(body.alpha);
     const Real left = volume(solver);
