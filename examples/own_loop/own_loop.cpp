@@ -47,7 +47,7 @@ fsi::RunStatus own_loop() {
   flow::Projection projection(mesh, weights, conditions, fsi::Method::direct, 0);
   flow::WallParabola parabola(mesh, conditions, stencil);
   flow::Momentum momentum(mesh, weights, conditions, physics.rho, physics.mu_f);
-  momentum.bound_explicit_viscosity(physics.mu_f);
+  momentum.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
   momentum.hold_old();
   fsi::Body disc(mesh, weights, solid, physics);
   fsi::StrainByFlux by_flux(mesh);

@@ -23,13 +23,6 @@ ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const
   return boundary;
 }
 
-/// omega of the boundary faces; empty: there is none.
-std::span<const Real> shares(const MomentumTerms& terms) {
-  if (terms.parabola == nullptr) return {};
-  const BoundaryField<Real>& share = terms.parabola->share();
-  return {share.data(), static_cast<std::size_t>(share.size())};
-}
-
 /// The least of the first dim components.
 Real least(const Vec3& v, Index dim) {
   const Real xy = std::min(v.x, v.y);
@@ -75,7 +68,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
   set_theta(1);
 }
 
-void Momentum::bound_explicit_viscosity(Real mu_max) {
+void Momentum::bound_explicit_viscosity(Real mu_max, Real theta_max) {
   Real spread = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     Real sum = 0;
@@ -83,6 +76,7 @@ void Momentum::bound_explicit_viscosity(Real mu_max) {
     spread = std::max(spread, sum / mesh_.V[c]);
   }
   rate_ = std::max(rate_, mu_max / rho_ * global_max(spread));
+  theta_max_ = std::max(theta_max_, theta_max);
 }
 
 // In its stiffest cell u obeys u_t = -l (1 - r) u, l = spread mu / rho, where r l u is the explicit
@@ -91,7 +85,7 @@ void Momentum::bound_explicit_viscosity(Real mu_max) {
 // leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
 // theta = 1 it stays inside for |r| < 1.
 Real Momentum::theta_at(Real dt) const {
-  return rate_ > 0 ? std::max(theta, 1 - 1 / (rate_ * dt)) : theta;
+  return rate_ > 0 ? std::max(theta, theta_max_ - (2 * theta_max_ - 1) / (rate_ * dt)) : theta;
 }
 
 Real Momentum::extrapolated(Real dt) const {
@@ -154,12 +148,7 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
       const Real rho = terms.rho ? (*terms.rho)[c][static_cast<int>(i)] : rho_;
       A.diagonal[c * dim + i] = rho * mesh_.V[c] / dt;
     }
-  const std::span<const Real> parabola = shares(terms);
-  add_diffusion([&](Index f) {
-    const Index b = f - mesh_.n_internal;
-    const Real whole = b < 0 || parabola.empty() ? 1 : 1 + parabola[static_cast<std::size_t>(b)];
-    return whole * theta_f_[f] * mu[f] + kappa[f];
-  });
+  add_diffusion([&](Index f) { return theta_f_[f] * mu[f] + kappa[f]; });
   system_.renewed();
 }
 
@@ -214,7 +203,7 @@ void Momentum::add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Re
   for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += w[1] * rest[c];
   rest.fill({});
   viscous_oblique(rest, terms.mu, terms.L_f, boundary_, weights_, mesh_);
-  if (terms.parabola != nullptr) terms.parabola->add_slopes(rest, terms.mu, u, terms.u_b);
+  if (terms.parabola != nullptr) terms.parabola->add_excess(rest, terms.mu, u, terms.u_b);
   if (terms.mu_varies) viscous_transposed(rest, terms.mu, mu_0_, terms.L, boundary_, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     rhs_[c] += (1 - share + w[0] * share) * rest[c];
@@ -223,24 +212,21 @@ void Momentum::add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Re
 }
 
 void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
-  const std::span<const Real> parabola = shares(terms);
-  viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_, parabola);
+  viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
   if (!old_) return;
   if (steps_taken >= damped_steps && (whole_past_ || theta_at(dt) == 0.5))
     viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, old_->u, old_->u_b, boundary_,
-                 weights_, mesh_, parabola);
+                 weights_, mesh_);
   old_->u.assign(u);
 }
 
 void Momentum::add_sources(const MomentumTerms& terms) {
   for (Index c = 0; c < mesh_.n_owned; ++c)
     rhs_[c] += mesh_.V[c] * (terms.force[c] + terms.body - terms.grad_p[c]);
-  const std::span<const Real> parabola = shares(terms);
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
     const Index b = f - mesh_.n_internal;
-    const Real whole = parabola.empty() ? 1 : 1 + parabola[static_cast<std::size_t>(b)];
     if (boundary_.open[b] == 0)
-      rhs_[mesh_.owner[f]] += (whole * theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f] *
+      rhs_[mesh_.owner[f]] += (theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f] *
                               (terms.u_b_new[b] - terms.u_b[b]);
   }
 }
@@ -249,8 +235,7 @@ int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   const std::array now{steps_taken < damped_steps ? 1.0 : theta_at(dt), dt};
   if (assembled_[0] != now[0]) set_theta(now[0]);
   raise_theta(terms, now[0], dt);
-  const bool varies = terms.mu_varies || terms.stiff || terms.rho || terms.parabola_varies;
-  if (varies || assembled_ != now) assemble(terms, dt);
+  if (terms.mu_varies || terms.stiff || terms.rho || assembled_ != now) assemble(terms, dt);
   assembled_ = now;
 
   rhs_.fill({});

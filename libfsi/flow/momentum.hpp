@@ -47,7 +47,6 @@ struct MomentumTerms {
   /// Irregular faces with a one-sided L_f beside a surface. If there may be such faces, `stiff`.
   std::span<const Index> one_sided{};
   const WallParabola* parabola = nullptr;  ///< of the walls; none: their derivative by differences
-  bool parabola_varies = false;            ///< its omega does in time
 };
 
 /// The predictor [Matsumiya25] (12), of second order in time, in increments w = u* - u^n.
@@ -91,13 +90,14 @@ class Momentum {
   /// The least theta of a step of dt after the first ones: more than `theta` after
   /// `bound_explicit_viscosity` where viscosity smooths a cell within the step, as the transposed
   /// term would make it unstable. From 1/2 where l = mu dt / rho max_c sum g / V is below 2 it
-  /// rises to 1 as 1 - 1 / l.
+  /// rises to theta_max as theta_max - (2 theta_max - 1) / l.
   Real theta_at(Real dt) const;
   /// theta_f of the last `predict`, what goes with its u*.
   const FaceField<Real>& theta_taken() const { return theta_f_; }
-  /// Collective. There is a transposed viscous term of a viscosity up to mu_max: raises theta_at
-  /// and extrapolates less of the rest. Between two steps; the largest of several holds.
-  void bound_explicit_viscosity(Real mu_max);
+  /// Collective. There is an explicit viscous term of a viscosity up to mu_max: raises theta_at and
+  /// extrapolates less of the rest. The transposed term needs a theta_max of 1, the parabola of the
+  /// walls 3/4. Between two steps; the largest of several holds.
+  void bound_explicit_viscosity(Real mu_max, Real theta_max = 1);
   /// The velocity before the last step, part of a checkpoint, and at the boundary, to be set from
   /// it before `predict`.
   struct Old {
@@ -142,7 +142,7 @@ class Momentum {
   Real rho_, mu_0_;
   Convection scheme_;
   // mu / rho times the largest sum over a cell's faces of g / V; 0: no transposed term
-  Real rate_ = 0;
+  Real rate_ = 0, theta_max_ = 0.5;
   ViscousBoundary boundary_;
   // [n_boundary] share of the viscous flux in each component's diagonal
   std::vector<Vec3> implicit_;

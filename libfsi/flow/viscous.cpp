@@ -1,14 +1,6 @@
 #include "libfsi/flow/viscous.hpp"
 
 namespace fsi::flow {
-namespace {
-
-/// How often the difference at boundary face b counts.
-Real whole(std::span<const Real> parabola, Index b) {
-  return parabola.empty() ? 1 : 1 + parabola[static_cast<std::size_t>(b)];
-}
-
-}  // namespace
 
 void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f, Real mu_s,
                        const FaceWeights& weights, const Mesh& mesh) {
@@ -22,7 +14,7 @@ void mixture_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real m
 
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const ViscousBoundary& boundary,
-                     const FaceWeights& weights, const Mesh& mesh, std::span<const Real> parabola) {
+                     const FaceWeights& weights, const Mesh& mesh) {
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const Vec3 flux = mu[f] * weights.g[f] * (u[N] - u[P]);
@@ -31,16 +23,14 @@ void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const Cel
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f], b = f - mesh.n_internal;
-    if (boundary.open[b] == 0)
-      visc[P] += whole(parabola, b) * mu[f] * weights.g[f] * (u_b[b] - u[P]);
+    if (boundary.open[b] == 0) visc[P] += mu[f] * weights.g[f] * (u_b[b] - u[P]);
   }
 }
 
 void viscous_past(CellField<Vec3>& visc, const FaceField<Real>& mu, const FaceField<Real>& theta,
                   Real ratio, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const CellField<Vec3>& u_past, const BoundaryField<Vec3>& u_b_past,
-                  const ViscousBoundary& boundary, const FaceWeights& weights, const Mesh& mesh,
-                  std::span<const Real> parabola) {
+                  const ViscousBoundary& boundary, const FaceWeights& weights, const Mesh& mesh) {
   const auto change = [&](Index c) { return u[c] - u_past[c]; };
   for (Index f = 0; f < mesh.n_faces; ++f) {
     if (theta[f] == 0.5) continue;
@@ -52,7 +42,7 @@ void viscous_past(CellField<Vec3>& visc, const FaceField<Real>& mu, const FaceFi
       visc[P] += flux;
       visc[N] -= flux;
     } else if (const Index b = f - mesh.n_internal; boundary.open[b] == 0) {
-      visc[P] += whole(parabola, b) * a * (u_b[b] - u_b_past[b] - change(P));
+      visc[P] += a * (u_b[b] - u_b_past[b] - change(P));
     }
   }
 }

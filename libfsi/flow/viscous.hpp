@@ -1,7 +1,6 @@
 #pragma once
 // The viscous term of the momentum equation, div(mu (grad u + grad u^T)), in two parts.
 
-#include <span>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
@@ -21,19 +20,16 @@ struct ViscousBoundary {
   std::vector<char> varied;  ///< [n_boundary]
 };
 
-/// visc_c += sum_f mu_f g_f (u_N - u_P): the compact part over owned cells. parabola: omega of the
-/// walls (WallParabola), whose difference counts 1 + omega times; empty: 0.
+/// visc_c += sum_f mu_f g_f (u_N - u_P): the compact part over owned cells.
 void viscous_compact(CellField<Vec3>& visc, const FaceField<Real>& mu, const CellField<Vec3>& u,
                      const BoundaryField<Vec3>& u_b, const ViscousBoundary& boundary,
-                     const FaceWeights& weights, const Mesh& mesh,
-                     std::span<const Real> parabola = {});
+                     const FaceWeights& weights, const Mesh& mesh);
 
 /// The same of u - u_past, times -(theta_f - 1/2) ratio: the correction for theta, see Momentum.
 void viscous_past(CellField<Vec3>& visc, const FaceField<Real>& mu, const FaceField<Real>& theta,
                   Real ratio, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const CellField<Vec3>& u_past, const BoundaryField<Vec3>& u_b_past,
-                  const ViscousBoundary& boundary, const FaceWeights& weights, const Mesh& mesh,
-                  std::span<const Real> parabola = {});
+                  const ViscousBoundary& boundary, const FaceWeights& weights, const Mesh& mesh);
 
 /// rest_c += sum_f mu_f L_f . k_f, L_f the gradient at irregular faces: the explicit rest of the
 /// normal derivative.

@@ -85,31 +85,24 @@ void WallParabola::keep_off(const CellField<Real>& alpha, std::span<const Index>
     }
 }
 
-Vec3 WallParabola::slope(std::size_t i, const CellField<Vec3>& u,
-                         const BoundaryField<Vec3>& u_b) const {
-  const Vec3& u_P = u[mesh_.owner[mesh_.n_internal + walls_[i]]];
-  Vec3 sum;
+Vec3 WallParabola::excess(std::size_t i, const CellField<Vec3>& u,
+                          const BoundaryField<Vec3>& u_b) const {
+  const Index b = walls_[i], f = mesh_.n_internal + b;
+  const Vec3& u_P = u[mesh_.owner[f]];
+  Vec3 sum = u_b[b] - u_P;
   for (Index k = begin_[i]; k < begin_[i + 1]; ++k) {
     const Term& term = terms_[k];
-    sum += term.weight * ((term.cell >= 0 ? u[term.cell] : u_b[term.face]) - u_P);
+    sum -= term.weight * ((term.cell >= 0 ? u[term.cell] : u_b[term.face]) - u_P);
   }
-  return sum;
+  return share_[b] * weights_.g[f] * sum;
 }
 
-void WallParabola::add_slopes(CellField<Vec3>& rest, const FaceField<Real>& mu,
+void WallParabola::add_excess(CellField<Vec3>& rest, const FaceField<Real>& mu,
                               const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const {
   for (std::size_t i = 0; i < walls_.size(); ++i) {
-    const Index b = walls_[i], f = mesh_.n_internal + b;
-    if (share_[b] > 0)
-      rest[mesh_.owner[f]] -= (share_[b] * mu[f] * weights_.g[f]) * slope(i, u, u_b);
+    const Index f = mesh_.n_internal + walls_[i];
+    rest[mesh_.owner[f]] += mu[f] * excess(i, u, u_b);
   }
-}
-
-Vec3 WallParabola::derivative(std::size_t i, const CellField<Vec3>& u,
-                              const BoundaryField<Vec3>& u_b) const {
-  const Index b = walls_[i], f = mesh_.n_internal + b;
-  const Vec3 rise = u_b[b] - u[mesh_.owner[f]];
-  return weights_.g[f] * ((1 + share_[b]) * rise - share_[b] * slope(i, u, u_b));
 }
 
 }  // namespace fsi::flow

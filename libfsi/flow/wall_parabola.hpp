@@ -13,7 +13,7 @@ namespace fsi::flow {
 /// The difference (u_b - u_P) / d is the derivative half way between a wall and the centre of its
 /// cell, not at the wall. With a share omega of the cell's own gradient L it is that of a parabola:
 ///
-///   S . grad u = g {(1 + omega) (u_b - u_P) - omega L_P . d},
+///   S . grad u = g (u_b - u_P) + omega g {(u_b - u_P) - L_P . d},
 ///   omega = q_P / (-q_P - (grad q)_P . d),   q = (n . (x - x_b))^2,
 ///
 /// with the discrete gradient of the stencil. By this omega the derivative of q at the wall is 0.
@@ -23,6 +23,10 @@ namespace fsi::flow {
 /// tetrahedra, whose L alternates.
 class WallParabola {
  public:
+  /// The excess is explicit. In a channel of any width a step is then stable for any viscosity if
+  /// theta rises to this, with omega up to 1.
+  static constexpr Real theta_max = 0.75;
+
   /// Collective. stencil: of the velocity's gradient. mesh must outlive this.
   WallParabola(const Mesh& mesh, const std::vector<Condition>& conditions,
                const GradientStencil& stencil);
@@ -36,11 +40,11 @@ class WallParabola {
 
   /// omega, [n_boundary]; 0 where there is no wall.
   const BoundaryField<Real>& share() const { return share_; }
-  /// rest_P -= omega mu g L_P . d at all walls, over owned cells. u: owned and halo.
-  void add_slopes(CellField<Vec3>& rest, const FaceField<Real>& mu, const CellField<Vec3>& u,
+  /// omega g {(u_b - u_P) - L_P . d} of the wall i of `walls`. u: owned and halo.
+  Vec3 excess(std::size_t i, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const;
+  /// rest_P += mu times that of all walls, over owned cells.
+  void add_excess(CellField<Vec3>& rest, const FaceField<Real>& mu, const CellField<Vec3>& u,
                   const BoundaryField<Vec3>& u_b) const;
-  /// S . grad u of the wall i of `walls`.
-  Vec3 derivative(std::size_t i, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const;
   /// Whether a wall on some rank has an omega.
   bool any() const { return any_; }
   /// The boundary faces with an omega, numbered from 0.
@@ -53,7 +57,6 @@ class WallParabola {
     Real weight;
   };
   void add_row(Index f, const GradientStencil& stencil, Real flatness);
-  Vec3 slope(std::size_t i, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b) const;
 
   const Mesh& mesh_;
   const FaceWeights& weights_;

@@ -116,14 +116,12 @@ void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
 }
 
 void EnergyBalance::add_power_of_parabola(Sum& sum, const Solver& solver) const {
-  const Mesh& mesh = solver.mesh();
-  const CellField<Vec3>& u = solver.state().u;
   const flow::WallParabola& parabola = solver.wall_parabola();
   for (std::size_t i = 0; i < parabola.walls().size(); ++i) {
-    const Index b = parabola.walls()[i], f = mesh.n_internal + b;
+    const Index b = parabola.walls()[i];
     if (norm2(u_b_[b]) == 0) continue;
-    const Vec3 difference = solver.weights().g[f] * (u_b_[b] - u[mesh.owner[f]]);
-    sum.add(solver.mu()[f] * dot(parabola.derivative(i, u, u_b_) - difference, u_b_[b]));
+    const Vec3 excess = parabola.excess(i, solver.state().u, u_b_);
+    sum.add(solver.mu()[solver.mesh().n_internal + b] * dot(excess, u_b_[b]));
   }
 }
 

@@ -88,8 +88,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
   if (courant_.any_simplex() && !setup.orthogonal_projection)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
-  if (wall_parabola_.any()) {  // its explicit part, as the transposed term, needs theta > 1/2
-    momentum_.bound_explicit_viscosity(physics.mu_f);
+  if (wall_parabola_.any()) {  // its excess is explicit
+    momentum_.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
     momentum_.hold_old();
   }
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
@@ -232,8 +232,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .body = driving_gradient() * axis_,
                                   .explicit_courant = explicit_courant(),
                                   .one_sided = interface_faces_,
-                                  .parabola = wall_parabola_.any() ? &wall_parabola_ : nullptr,
-                                  .parabola_varies = !bodies_.empty()};
+                                  .parabola = wall_parabola_.any() ? &wall_parabola_ : nullptr};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 
