@@ -48,7 +48,7 @@ fsi::RunStatus own_loop() {
   flow::WallParabola parabola(mesh, conditions, stencil);
   flow::Momentum momentum(mesh, weights, conditions, physics.rho, physics.mu_f);
   momentum.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
-  momentum.hold_old();
+  momentum.hold_old_of_part();
   fsi::Body disc(mesh, weights, solid, physics);
   fsi::StrainByFlux by_flux(mesh);
   const fsi::FlowAround around{.u = u,

@@ -65,7 +65,8 @@ class Clock {
   /// The end of the run.
   Real end() const { return end_; }
   /// The step from t that hits the event (or the end) when it lies within reach of `limit`. A rest
-  /// of less than two steps is split in two so that no tiny step is left.
+  /// of less than two steps is split in two so that no tiny step is left. It does not pass the time
+  /// `not_past`, where that is nearer.
   Real step(Real limit, const Events& ahead) const;
   /// The same where a step may pass any other time.
   Real step(Real limit, Real event) const { return step(limit, Events{event}); }

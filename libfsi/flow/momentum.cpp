@@ -83,7 +83,8 @@ void Momentum::bound_explicit_viscosity(Real mu_max, Real theta_max) {
 // rest. With Adams-Bashforth the step z,
 //   (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2,
 // leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
-// theta = 1 it stays inside for |r| < 1.
+// theta = 1 it stays inside for |r| < 1. The excess of flat walls has an r of a quarter and less
+// (doc/notebook/2026-11-27-flat-walls.md), for which 3/4 is enough.
 Real Momentum::theta_at(Real dt) const {
   return rate_ > 0 ? std::max(theta, theta_max_ - (2 * theta_max_ - 1) / (rate_ * dt)) : theta;
 }
@@ -153,10 +154,14 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
 }
 
 void Momentum::hold_old() {
+  if (whole_past_) return;
   whole_past_ = true;
-  if (old_) return;
-  old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
-  steps_taken = 0;  // the velocity before the last step is not known
+  steps_taken = 0;  // the velocity before the last step may not be known
+  hold_old_of_part();
+}
+
+void Momentum::hold_old_of_part() {
+  if (!old_) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
 }
 
 // Central convection has imaginary eigenvalues, up to i Co. There AB3 is stable to 0.72, a blend of
@@ -214,7 +219,7 @@ void Momentum::add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Re
 void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
   if (!old_) return;
-  if (steps_taken >= damped_steps && (whole_past_ || theta_at(dt) == 0.5))
+  if (steps_taken >= damped_steps && (whole_past_ || theta_max_ < 1 || theta_at(dt) == 0.5))
     viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, old_->u, old_->u_b, boundary_,
                  weights_, mesh_);
   old_->u.assign(u);

@@ -107,7 +107,9 @@ class Momentum {
   /// Second order in time from now on where theta = 1 at all faces. Between two steps; the next two
   /// are damped as the first ones are.
   void hold_old();
-  /// Empty on regular meshes without hold_old.
+  /// Second order in time where theta is between 1/2 and 1, from the first step on.
+  void hold_old_of_part();
+  /// Empty on regular meshes without one of these.
   std::optional<Old>& old() { return old_; }
   /// What the viscous term makes of the conditions.
   const ViscousBoundary& boundary() const { return boundary_; }
@@ -141,8 +143,10 @@ class Momentum {
   const FaceWeights& weights_;
   Real rho_, mu_0_;
   Convection scheme_;
-  // mu / rho times the largest sum over a cell's faces of g / V; 0: no transposed term
-  Real rate_ = 0, theta_max_ = 0.5;
+  // mu / rho times the largest sum over a cell's faces of g / V; 0: nothing of an explicit term
+  // needs a larger theta
+  Real rate_ = 0;
+  Real theta_max_ = 0.5;  // to which theta rises then
   ViscousBoundary boundary_;
   // [n_boundary] share of the viscous flux in each component's diagonal
   std::vector<Vec3> implicit_;

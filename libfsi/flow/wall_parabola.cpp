@@ -24,6 +24,16 @@ CellField<Vec3> wall_normals(const Mesh& mesh, const std::vector<Condition>& con
   return normal;
 }
 
+/// [n_boundary] 1 on planes of slip: a value there belongs to the foot of the cell's centre.
+std::vector<char> on_slip(const std::vector<Condition>& conditions, const Mesh& mesh) {
+  std::vector<char> slips(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
+      slips[static_cast<std::size_t>(f - mesh.n_internal)] =
+          std::holds_alternative<Slip>(conditions[i]) ? 1 : 0;
+  return slips;
+}
+
 /// 1 on a flat wall, falling to 0 as the normals around turn. An edge is not a curved wall.
 Real flatness(const CellField<Vec3>& normal, Index f, const Mesh& mesh) {
   constexpr Real curved = 0.02, edge = 0.7;  // radian; cosine
@@ -40,35 +50,42 @@ WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& condi
                            const GradientStencil& stencil)
     : mesh_(mesh), weights_(stencil.weights), share_(mesh), largest_(mesh) {
   const CellField<Vec3> normal = wall_normals(mesh, conditions);
+  const std::vector<char> slips = on_slip(conditions, mesh);
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     if (!std::holds_alternative<Wall>(conditions[i])) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       if (mesh.owner[f] >= mesh.n_owned || mesh.simplex(mesh.owner[f])) continue;
-      if (const Real flat = flatness(normal, f, mesh); flat > 0) add_row(f, stencil, flat);
+      if (const Real flat = flatness(normal, f, mesh); flat > 0) add_row(f, stencil, slips, flat);
     }
   }
-  for (std::size_t i = 0; i < walls_.size(); ++i) largest_[walls_[i]] = whole_[i];
   any_ = !all_of_ranks(walls_.empty());
   reset();
 }
 
 // q is the square of the distance from the plane of face f.
-void WallParabola::add_row(Index f, const GradientStencil& stencil, Real flatness) {
+void WallParabola::add_row(Index f, const GradientStencil& stencil, const std::vector<char>& slips,
+                           Real flatness) {
   const Index P = mesh_.owner[f];
   const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]), &d = mesh_.d[f];
   const auto q = [&](const Vec3& from_P) { return std::pow(dot(n, from_P - d), 2); };
   const Real q_P = q({});
   Real rise = 0;
+  std::vector<Term> row;
   for (const Index k : mesh_.cell_faces[P]) {
+    const Index b = k - mesh_.n_internal;
+    const Vec3 n_k = mesh_.Sf[k] / norm(mesh_.Sf[k]);
+    if (b >= 0 && dot(n_k, n) < -0.5) return;  // a single cell between two walls
     const Real weight = dot(stencil.weight(k, mesh_.owner[k] == P), d);
     if (weight == 0) continue;
-    rise += weight * (q(outward(mesh_, k, P) * mesh_.d[k]) - q_P);
-    const bool internal = k < mesh_.n_internal;
-    terms_.push_back(
-        {internal ? beyond(mesh_, k, P) : -1, internal ? -1 : k - mesh_.n_internal, weight});
+    const Vec3 way = outward(mesh_, k, P) * mesh_.d[k];
+    const bool at_foot = b >= 0 && slips[static_cast<std::size_t>(b)] != 0;
+    rise += weight * (q(at_foot ? dot(way, n_k) * n_k : way) - q_P);
+    row.push_back({b < 0 ? beyond(mesh_, k, P) : -1, b, weight});
   }
+  if (!(-q_P - rise >= q_P)) return;
   walls_.push_back(f - mesh_.n_internal);
-  whole_.push_back(-q_P - rise >= q_P ? flatness * q_P / (-q_P - rise) : 0);
+  largest_[walls_.back()] = flatness * q_P / (-q_P - rise);
+  terms_.insert(terms_.end(), row.begin(), row.end());
   begin_.push_back(static_cast<Index>(terms_.size()));
 }
 
@@ -81,7 +98,7 @@ void WallParabola::keep_off(const CellField<Real>& alpha, std::span<const Index>
       if (b < 0 || largest_[b] == 0) continue;
       Real most = alpha[c];
       for (const Index k : mesh_.cell_neighbours[c]) most = std::max(most, alpha[k]);
-      share_[b] = std::min(share_[b], largest_[b] * std::max(Real{0}, 1 - most));
+      share_[b] = std::max(Real{0}, share_[b] - largest_[b] * most);
     }
 }
 

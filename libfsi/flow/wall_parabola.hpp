@@ -19,12 +19,12 @@ namespace fsi::flow {
 /// with the discrete gradient of the stencil. By this omega the derivative of q at the wall is 0.
 /// On uniform quadrilaterals or hexahedra omega = 2/3. Facets of a curved wall lie inside of it,
 /// which brakes the fluid more, and the difference alone brakes it less. Both errors are of second
-/// order and of about the same size, so a curved wall has omega = 0. So has a wall of triangles or
-/// tetrahedra, whose L alternates.
+/// order and of about the same size, so a curved wall has omega = 0. Triangles and tetrahedra have
+/// none, and walls with a single cell between them neither.
 class WallParabola {
  public:
-  /// The excess is explicit. In a channel of any width a step is then stable for any viscosity if
-  /// theta rises to this, with omega up to 1.
+  /// The excess is explicit. In a channel two or more cells wide a step is stable for any viscosity
+  /// if theta rises to this, with an omega of 1 at most.
   static constexpr Real theta_max = 0.75;
 
   /// Collective. stencil: of the velocity's gradient. mesh must outlive this.
@@ -33,9 +33,9 @@ class WallParabola {
 
   /// Makes omega that of a wall without solids.
   void reset();
-  /// Makes omega at most 1 - alpha, the largest alpha of the cell at the wall and of those around
-  /// it: at the surface of a solid the derivative of u jumps. alpha: owned and halo; cells: owned,
-  /// those with solid and those around them.
+  /// Takes the part alpha of omega away, the largest alpha of the cell at the wall and of those
+  /// around it: at the surface of a solid the derivative of u jumps. Once for each solid. alpha:
+  /// owned and halo; cells: owned, those with solid and those around them.
   void keep_off(const CellField<Real>& alpha, std::span<const Index> cells);
 
   /// omega, [n_boundary]; 0 where there is no wall.
@@ -56,12 +56,12 @@ class WallParabola {
     Index cell, face;
     Real weight;
   };
-  void add_row(Index f, const GradientStencil& stencil, Real flatness);
+  void add_row(Index f, const GradientStencil& stencil, const std::vector<char>& slips,
+               Real flatness);
 
   const Mesh& mesh_;
   const FaceWeights& weights_;
   std::vector<Index> walls_;     // [rows] boundary faces
-  std::vector<Real> whole_;      // [rows] omega without solids
   std::vector<Index> begin_{0};  // [rows + 1] of the terms
   std::vector<Term> terms_;
   BoundaryField<Real> share_, largest_;

@@ -87,7 +87,7 @@ struct Profile {
 /// fraction / dim and fraction^(1/dim) of the way from the lowest corner to the highest one.
 template <int dim>
 Plane plane_of(const Polytope& cell, const Vec3& n, Real fraction) {
-  constexpr int rounds = 80;      // the interval is halved in a round at worst
+  constexpr int rounds = 80;      // five or six do in a convex cell
   constexpr Real nearly = 1e-13;  // of the volume: the next step ends at round-off
   const Profile<dim> profile(cell, n);
   Real low = profile.low, high = profile.high;
@@ -98,8 +98,9 @@ Plane plane_of(const Polytope& cell, const Vec3& n, Real fraction) {
     const Real off = at.measure - fraction * profile.whole;
     (off < 0 ? low : high) = s;
     const Real next = s - off / at.area;
-    s = next >= low && next <= high ? next : (low + high) / 2;
-    if (std::abs(off) <= nearly * profile.whole) break;
+    const bool inside = next > low && next < high, last = std::abs(off) <= nearly * profile.whole;
+    if (inside || !last) s = inside ? next : (low + high) / 2;
+    if (last) break;
   }
   return {n, s};
 }

@@ -54,7 +54,7 @@ class Output {
   /// Collective. Whether the run may continue; false if a step failed for good, wall time is up or
   /// the end was asked for. Errors: Error{input} if a solid was put in since.
   bool go_on();
-  /// Time of the next event that a step must hit.
+  /// The times that the next step must hit, a file's, and must not pass, a row's.
   Events next_event() const;
   /// Collective. Call after every step of length dt, 0 if it failed: writes what is due. Errors:
   /// those of the files, after a checkpoint and summary.json are written, as far as possible;

@@ -14,12 +14,14 @@ Real kinetic_energy(const Solver& solver);
 /// the scheme, however much viscosity took before:
 ///
 ///   made = max over t > s > t_0 of ((E - W)(t) - (E - W)(s)),  at least 0
-///   dW/dt = sum_b {mu g (u_b - u_P) . u_b + alpha_b (tau . S) . u_b - (p_b + rho |u_b|^2 / 2) phi}
+///   dW/dt = sum_b {(mu g (u_b - u_P) + mu e_b) . u_b + alpha_b (tau . S) . u_b
+///                  - (p_b + rho |u_b|^2 / 2) phi}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
-/// b are the boundary faces, S and phi outward. The viscous and elastic part is there if the
-/// velocity is given. The sum in time is by the trapezoidal rule. t_0 is the end of the first
-/// twenty steps, since a flow that starts from an impulse is not judged.
+/// b are the boundary faces, S and phi outward, e_b the excess of a flat wall (WallParabola). The
+/// viscous and elastic part is there if the velocity is given. The sum in time is by the
+/// trapezoidal rule. t_0 is the end of the first twenty steps, since a flow that starts from an
+/// impulse is not judged.
 class EnergyBalance {
  public:
   static constexpr int start = 20;  ///< steps that are not judged

@@ -90,7 +90,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
   if (setup.orthogonal_projection) make_orthogonal();
   if (wall_parabola_.any()) {  // its excess is explicit
     momentum_.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
-    momentum_.hold_old();
+    momentum_.hold_old_of_part();
   }
   if (setup.mean_velocity) forcing_.emplace(mesh, projection_, axis_, *setup.mean_velocity);
   if (leaves_ || forcing_)

@@ -89,7 +89,7 @@ def file_failures(drivers, folder, case):
     check(len(times) == 12, f"no field is missing: {times}")
 
     # The tables outgrow what is allowed, the checkpoint does not; then it does too.
-    for limit, saved in ((150_000, True), (20_000, False)):
+    for limit, saved in ((250_000, True), (20_000, False)):
         process = start([*case, "-time_end", "1000", "-output_interval", "0", "-time_step", "0.001"],
                         out, restore_signals=False, preexec_fn=without_signal)
         resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, limit))

@@ -73,6 +73,8 @@ TEST(WallParabola, LeavesCurvedWallsAndSimplicesAsTheyWere) {
   EXPECT_NEAR(largest({.n = {6, 8, 0}, .moved = bent(0.01)}), 1.0 / 3, 0.03);
   EXPECT_NEAR(largest({.n = {6, 8, 0}, .moved = bent(1e-12)}), 2.0 / 3, 1e-9);
   EXPECT_EQ(largest({.n = {6, 8, 0}, .simplex = true}), 0);
+  EXPECT_EQ(largest({.n = {6, 1, 0}}), 0) << "one cell between two walls";
+  EXPECT_GT(largest({.n = {6, 2, 0}}), 0.6);
 }
 
 TEST(WallParabola, KeepsOffASolid) {
@@ -92,6 +94,12 @@ TEST(WallParabola, KeepsOffASolid) {
     const Vec3& x = mesh.Cf[mesh.n_internal + b];
     const bool beside = x.y < 0.5 && std::abs(x.x - 7.0 / 12) < 0.2;
     EXPECT_NEAR(parabola.share()[b], (beside ? 0.75 : 1) * 2 / 3, 1e-12);
+  }
+  parabola.keep_off(alpha, cells);  // of a second solid
+  for (const Index b : parabola.walls()) {
+    const Vec3& x = mesh.Cf[mesh.n_internal + b];
+    const bool beside = x.y < 0.5 && std::abs(x.x - 7.0 / 12) < 0.2;
+    EXPECT_NEAR(parabola.share()[b], (beside ? 0.5 : 1) * 2 / 3, 1e-12);
   }
   parabola.reset();
   for (const Index b : parabola.walls()) EXPECT_NEAR(parabola.share()[b], 2.0 / 3, 1e-12);
