@@ -14,8 +14,8 @@ Real kinetic_energy(const Solver& solver);
 /// the scheme, however much viscosity took before:
 ///
 ///   made = max over t > s > t_0 of ((E - W)(t) - (E - W)(s)),  at least 0
-///   dW/dt = sum_b {(mu g (u_b - u_P) + mu e_b) . u_b + alpha_b (tau . S) . u_b
-///                  - (p_b + rho |u_b|^2 / 2) phi}
+///   dW/dt = sum_b {mu (g (u_b - u_P) + e_b) . u_b + alpha_b (tau . S) . u_b -
+///                  (p_b + rho |u_b|^2 / 2) phi}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
 /// b are the boundary faces, S and phi outward, e_b the excess of a flat wall (WallParabola). The
