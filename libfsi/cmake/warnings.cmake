@@ -6,5 +6,7 @@ target_compile_options(fsi_flags INTERFACE -ffp-contract=off -fno-math-errno -fn
 if(FSI_SANITIZE)
   target_compile_options(fsi_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -O1)
   target_link_options(fsi_flags INTERFACE -fsanitize=address,undefined)
-  target_sources(fsi_flags INTERFACE ${PROJECT_SOURCE_DIR}/tests/sanitize/keep_loaded.cpp)
+  # Not of the library: where sources are joined, both would define the same function.
+  target_sources(fsi_flags INTERFACE
+    "$<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${PROJECT_SOURCE_DIR}/tests/sanitize/keep_loaded.cpp>")
 endif()
