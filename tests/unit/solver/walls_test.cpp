@@ -159,5 +159,27 @@ TEST(Walls, FilmsBearTheVelocityAcrossThem) {
   }
 }
 
+// The friction of flat walls has an explicit part, in the corner of a duct two of them.
+TEST(Walls, FrictionIsStableAtAnyViscosity) {
+  for (const Index n : {1, 2, 3})
+    for (const Real mu : {0.01, 100.0, 1e5}) {
+      const Mesh mesh = test::read_box({.n = {8, n, n}, .length = {2, 1, 1}});
+      const FlowRate inflow{[](Real) { return 0.5; }, InflowProfile::plug};
+      Solver solver(mesh, {.rho = 1, .mu_f = mu},
+                    {.conditions = {{"left", inflow},
+                                    {"right", Opening{0}},
+                                    {"bottom", Wall{}},
+                                    {"top", Wall{}},
+                                    {"back", Wall{}},
+                                    {"front", Wall{}}}});
+      solver.start([](const Vec3&) { return Vec3{}; });
+      for (int i = 0; i < 60; ++i) solver.step(0.05);
+      Real fastest = 0;
+      for (Index c = 0; c < mesh.n_owned; ++c)
+        fastest = std::max(fastest, norm(solver.state().u[c]));
+      EXPECT_LT(global_max(fastest), 2) << n << " cells across, mu " << mu;
+    }
+}
+
 }  // namespace
 }  // namespace fsi
