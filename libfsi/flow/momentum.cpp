@@ -83,8 +83,8 @@ void Momentum::bound_explicit_viscosity(Real mu_max, Real theta_max) {
 // rest. With Adams-Bashforth the step z,
 //   (1 + theta l dt) z^2 = (1 - (1 - theta) l dt + 3/2 r l dt) z - r l dt / 2,
 // leaves the unit circle at z = -1, where theta < 1/2 - r - 1 / (l dt); with Euler's rule and
-// theta = 1 it stays inside for |r| < 1. The excess of flat walls has an r of a quarter and less
-// (doc/notebook/2026-11-27-flat-walls.md), for which 3/4 is enough.
+// theta = 1 it stays inside for |r| < 1. The excess of flat walls is a smaller part of l. For it a
+// theta of 3/4 is enough (doc/notebook/2026-11-27-flat-walls.md).
 Real Momentum::theta_at(Real dt) const {
   return rate_ > 0 ? std::max(theta, theta_max_ - (2 * theta_max_ - 1) / (rate_ * dt)) : theta;
 }

@@ -143,10 +143,10 @@ class Momentum {
   const FaceWeights& weights_;
   Real rho_, mu_0_;
   Convection scheme_;
-  // mu / rho times the largest sum over a cell's faces of g / V; 0: nothing of an explicit term
-  // needs a larger theta
+  // mu / rho times the largest sum over a cell's faces of g / V; 0: no explicit viscous term needs
+  // a larger theta
   Real rate_ = 0;
-  Real theta_max_ = 0.5;  // to which theta rises then
+  Real theta_max_ = 0.5;  // the largest theta that such a term needs
   ViscousBoundary boundary_;
   // [n_boundary] share of the viscous flux in each component's diagonal
   std::vector<Vec3> implicit_;

@@ -54,7 +54,7 @@ WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& condi
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     if (!std::holds_alternative<Wall>(conditions[i])) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
-      if (mesh.owner[f] >= mesh.n_owned || mesh.simplex(mesh.owner[f])) continue;
+      if (mesh.simplex(mesh.owner[f])) continue;
       if (const Real flat = flatness(normal, f, mesh); flat > 0) add_row(f, stencil, slips, flat);
     }
   }

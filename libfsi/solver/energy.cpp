@@ -90,8 +90,7 @@ void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
 }
 
 // V u = sum_f sigma phi (x_f - x_c), from the fluxes of the faces. It is exact for a uniform force,
-// whose work is zero without inflow. The sum over the cells of S . V u is one over faces of phi S .
-// d.
+// whose work is zero without inflow. Summed over the cells, S . V u is sum_f phi S . d.
 void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();

@@ -185,7 +185,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
 }
 
 void Solver::set_wall_parabola() {
-  if (bodies_.empty()) return;
+  if (bodies_.empty() || !wall_parabola_.any()) return;
   wall_parabola_.reset();
   for (const Body& body : bodies_) wall_parabola_.keep_off(body.alpha, body.band.cells());
 }

@@ -50,21 +50,33 @@ TEST(Leaving, WhatLeftIsCountedAndNothingStaysBehind) {
     }
 }
 
+/// A disc that the wind has carried half out of a channel.
+struct HalfOut {
+  explicit HalfOut(Real radius)
+      : solver(mesh, {.rho = 1, .mu_f = 0.1},
+               {.conditions = {{"left", FixedVelocity{[](const Vec3&, Real) {
+                                  return Vec3{1, 0, 0};
+                                }}},
+                               {"right", Opening{0}},
+                               {"bottom", Slip{}},
+                               {"top", Slip{}}}}) {
+    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(radius), {1, 0.5, 0}), .G = 1, .mu = 0.1});
+    for (int i = 0; i < 30; ++i) EXPECT_GT(solver.advance(0.01), 0) << solver.report().failure;
+  }
+  const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
+  Solver solver;
+};
+
 // What stays behind of a disc that leaves ends with it once no cell is half full, however much it
 // is; with one such cell it stays.
 TEST(Leaving, AResidueWithoutAHalfFullCellLeavesWithTheRest) {
   for (const bool one_full : {false, true}) {
-    const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
-    const FixedVelocity wind{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
-    Solver solver(
-        mesh, {.rho = 1, .mu_f = 0.1},
-        {.conditions = {
-             {"left", wind}, {"right", Opening{0}}, {"bottom", Slip{}}, {"top", Slip{}}}});
-    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
-    solver.put_solid(
-        {.shape = shapes::translate(shapes::sphere(0.25), {1, 0.5, 0}), .G = 1, .mu = 0.1});
+    HalfOut scene(0.25);
+    const Mesh& mesh = scene.mesh;
+    Solver& solver = scene.solver;
     Body& body = *solver.body();
-    for (int i = 0; i < 30; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
     ASSERT_GT(body.volume_out, 0);
     for (Index c = 0; c < mesh.n_owned; ++c) {
       const bool full = one_full && norm(mesh.C[c] - Vec3{1.25, 0.53, 0}) < 0.04;
@@ -86,17 +98,10 @@ TEST(Leaving, AResidueWithoutAHalfFullCellLeavesWithTheRest) {
 // rest if it holds less.
 TEST(Leaving, AHundredthStays) {
   for (const Real part : {0.008, 0.012}) {
-    const Mesh mesh = test::read_box({.n = {24, 16, 0}, .length = {1.5, 1, 1}});
-    const FixedVelocity wind{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }};
-    Solver solver(
-        mesh, {.rho = 1, .mu_f = 0.1},
-        {.conditions = {
-             {"left", wind}, {"right", Opening{0}}, {"bottom", Slip{}}, {"top", Slip{}}}});
-    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
-    solver.put_solid(
-        {.shape = shapes::translate(shapes::sphere(0.3), {1, 0.5, 0}), .G = 1, .mu = 0.1});
+    HalfOut scene(0.3);
+    const Mesh& mesh = scene.mesh;
+    Solver& solver = scene.solver;
     Body& body = *solver.body();
-    for (int i = 0; i < 30; ++i) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
     for (Index c = 0; c < mesh.n_owned; ++c) {
       const bool kept = norm(mesh.C[c] - Vec3{1.28, 0.53, 0}) < 0.04;
       body.alpha[c] = kept ? part * body.filled.volume / mesh.V[c] : 0;
