@@ -39,7 +39,7 @@ fsi::RunStatus own_loop() {
   CellField<Vec3> u(mesh), grad_p(mesh), grad_q(mesh), force(mesh);
   CellField<Real> p(mesh), q(mesh), divergence(mesh);
   CellField<fsi::Tensor> L(mesh);
-  FaceField<Real> phi(mesh), mu(mesh, physics.mu_f), kappa(mesh), source(mesh);
+  FaceField<Real> phi(mesh), mu(mesh, physics.mu_f), kappa(mesh), stiffness(mesh), source(mesh);
   BoundaryField<Vec3> u_b(mesh), u_b_new(mesh);
   const BoundaryField<Real> none(mesh);  // of p and q: no patch is open
   const std::vector<fsi::Tensor> L_f;    // at irregular faces: there are none
@@ -72,21 +72,19 @@ fsi::RunStatus own_loop() {
                                            .stiff = true,
                                            .force = force,
                                            .parabola = &parabola};
-  const flow::FluxTerms flux_terms{
-      .L_f = L_f,
-      .p = p,
-      .grad_p = grad_p,
-      .grad_p_f = projection.face_gradient(),
-      .p_b = none,
-      .rhie_chow_source = source,
-      .mu = mu,
-      .theta = momentum.theta_taken(),
-      .kappa = kappa,
-      .elastic = kappa,
-      .rho = physics.rho,
-      .dt = dt,
-      .stress = disc.G,
-      .flux_strain = 1 / fsi::solid::SemiImplicitElasticity::implicit_fraction};
+  const flow::FluxTerms flux_terms{.L_f = L_f,
+                                   .p = p,
+                                   .grad_p = grad_p,
+                                   .grad_p_f = projection.face_gradient(),
+                                   .p_b = none,
+                                   .rhie_chow_source = source,
+                                   .mu = mu,
+                                   .theta = momentum.theta_taken(),
+                                   .kappa = kappa,
+                                   .rho = physics.rho,
+                                   .dt = dt,
+                                   .stress = disc.G,
+                                   .stiffness = &stiffness};
 
   // 4 the loop
   Real t = 0;
@@ -96,14 +94,14 @@ fsi::RunStatus own_loop() {
     fsi::advect_pressure_jump(p, disc);                                 // (4)
     projection.set_gradient(grad_p, p, none);                           // (5)
     fsi::set_boundary_velocity(u_b, u, conditions, t, mesh);            // (6)
-    force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa);
+    force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa, stiffness);
 
     fsi::transport_memory(disc, L, around);   // (7)
     fsi::transport_elastic(disc, L, around);  // (8)
     parabola.reset();
-    parabola.keep_off(disc.alpha, disc.band.cells());           // (9)
-    fsi::add_elastic_force(force, source, disc, L, around);     // (11)
-    fsi::add_semi_implicit(kappa, force, disc, L, around, dt);  // (12)
+    parabola.keep_off(disc.alpha, disc.band.cells());                      // (9)
+    fsi::add_elastic_force(force, source, disc, L, around);                // (11)
+    fsi::add_semi_implicit(kappa, stiffness, force, disc, L, around, dt);  // (12)
 
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
     auto& old = *momentum.old();  // of the step before

@@ -21,8 +21,8 @@ bool any(const std::vector<bool>& flags) {
 
 /// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f the sum of all implicit coefficients.
 Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
-  const Real implicit =
-      terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * terms.flux_strain * terms.elastic[f];
+  const Real strain = terms.stiffness != nullptr ? (*terms.stiffness)[f] : 0;
+  const Real implicit = terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * strain;
   const Real rho = terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
   return t_f / (rho + 4 * t_f * implicit / norm2(mesh.d[f]));
 }

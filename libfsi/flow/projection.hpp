@@ -25,17 +25,16 @@ struct FluxTerms {
   const BoundaryField<Real>& p_b;     ///< read on openings only
   /// c_f, counterpart of elastic stress and body force; 0 outside the solid.
   const FaceField<Real>& rhie_chow_source;
-  const FaceField<Real>& mu;       ///< viscosity at the faces
-  const FaceField<Real>& theta;    ///< implicit share of the viscous term
-  const FaceField<Real>& kappa;    ///< implicit in addition to theta mu; 0 away from the solid
-  const FaceField<Real>& elastic;  ///< the part of kappa for elasticity
+  const FaceField<Real>& mu;     ///< viscosity at the faces
+  const FaceField<Real>& theta;  ///< implicit share of the viscous term
+  const FaceField<Real>& kappa;  ///< implicit in addition to theta mu; 0 away from the solid
   /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
   const Density* density = nullptr;        ///< null: rho everywhere
   const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
   Real stress = 0;                         ///< scale of the elastic stress; 0 without one
-  /// dt G alpha_f lambda_B / elastic where the flux strains the solid; 0: it does not.
-  Real flux_strain = 0;
+  /// dt G alpha_f lambda_B if the flux strains a solid; null: it does not.
+  const FaceField<Real>* stiffness = nullptr;
 };
 
 /// Balanced, damped Rhie-Chow flux [Rhie83]:

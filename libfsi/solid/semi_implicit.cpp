@@ -55,13 +55,13 @@ SemiImplicitElasticity::SemiImplicitElasticity(const Mesh& mesh, const FaceWeigh
     inertia_.push_back(std::min(0.125, 0.5 / std::max(K[mesh.owner[f]], K[mesh.neighbour[f]])));
 }
 
-void SemiImplicitElasticity::clear(FaceField<Real>& kappa) {
-  for (const Index f : last_faces_) kappa[f] = 0;
+void SemiImplicitElasticity::clear(FaceField<Real>& kappa, FaceField<Real>& stiffness) {
+  for (const Index f : last_faces_) kappa[f] = 0, stiffness[f] = 0;
 }
 
-void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& force,
-                                   const ElasticTerms& solid, const FaceWeights& weights,
-                                   const Band& band) {
+void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stiffness,
+                                   CellField<Vec3>& force, const ElasticTerms& solid,
+                                   const FaceWeights& weights, const Band& band) {
   constexpr Real explicit_part = 1.5;  // of kappa + mu_rho, for stability
   const CellField<Real>& lambda = solid.lambda;
   last_faces_ = band.faces();
@@ -70,7 +70,8 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     Real l = lambda[P];
     if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
     l *= solid.alpha[f];
-    const Real k = implicit_fraction * solid.dt * solid.G * l;
+    const Real waves = solid.dt * solid.G * l, k = implicit_fraction * waves;
+    stiffness[f] += waves;
     kappa[f] += k;
     if (f >= mesh_.n_internal || l <= 0) continue;
     const Index N = mesh_.neighbour[f];
@@ -80,15 +81,14 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, CellField<Vec3>& forc
     const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
     // less alpha_f mu_s, since the compact viscous term of the solid damps too
     const bool in_zone = zone_.has(P) || zone_.has(N), one_sided = in_zone && solid.one_sided;
-    if (one_sided) {
-      e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
-      kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
-    } else if (in_zone) {
+    if (in_zone && !one_sided) {
       e *= 2;
       kappa[f] += e;
     } else {
-      if (solid.normal) e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
-      e = std::clamp(e - solid.alpha[f] * solid.mu_s, Real{0}, explicit_part * (k + inertia));
+      if (!in_zone && solid.normal)
+        e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
+      e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
+      kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
     }
     // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N
     // - u_P - W . d is negative, W the spin of L_f.

@@ -61,34 +61,33 @@ struct ElasticTerms {
 /// linear velocity with a kink, if L is one-sided or the mean of both sides. Without `kink` avg L
 /// is linear between the cells.
 ///
-/// The term is explicit, so that e is at most 1.5 (kappa + mu_rho). Here mu_rho = (rho |d|^2 / dt)
-/// min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and
+/// The term is explicit, so that kappa is raised to e / 1.5 - mu_rho if it is less. Here mu_rho =
+/// (rho |d|^2 / dt) min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and
 /// K = sum_f g |d|^2 / (2 V) the larger one of both cells. A velocity that differs from all its
 /// neighbours then changes by at most 1.5 of the difference in a step, for any shape of cell. K =
-/// dim on squares and regular simplices, and 10 or more on slivers.
+/// dim on squares and regular simplices, and 10 or more on slivers. If e were bounded instead, its
+/// error at the surface would depend on the step, and with it the way of a body.
 ///
-/// Faces of the simplex zone need all of e, since more modes alternate there. With a one-sided L,
-/// kappa is raised to e / 1.5 - mu_rho if it is less. A flux of e that would add energy to the
-/// strain is set to 0: its product with u_N - u_P less the spin of avg L times d is negative. Such
-/// fluxes occur since a one-sided L is no mean of the gradients at the faces. With the map
-/// kinematics e is twice the root instead, and kappa grows by e. Both cost an error of first order
-/// in dt.
+/// In the simplex zone with a one-sided L, a flux of e that would add energy to the strain is set
+/// to 0. Its product with u_N - u_P less the spin of avg L times d is negative. Such fluxes occur
+/// since a one-sided L is no mean of the gradients at the faces. There with the map kinematics e is
+/// twice the root instead, and kappa grows by e. Both cost an error of first order in dt.
 class SemiImplicitElasticity {
  public:
   /// Collective. mesh and zone must outlive it.
   SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights, const SimplexZone& zone);
 
-  /// kappa / (dt G alpha lambda_B).
+  /// kappa / (dt G alpha lambda_B), where e needs no more.
   static constexpr Real implicit_fraction = 0.4;
 
-  /// Sets kappa to zero on the faces of the last `apply`.
-  void clear(FaceField<Real>& kappa);
+  /// Sets both to zero on the faces of the last `apply`.
+  void clear(FaceField<Real>& kappa, FaceField<Real>& stiffness);
 
-  /// Collective. kappa_f += the implicit coefficient, with what e needs at faces of the zone.
-  /// lambda_B is linear between the cells. Nothing is added outside the band. force += the explicit
-  /// term.
-  void apply(FaceField<Real>& kappa, CellField<Vec3>& force, const ElasticTerms& solid,
-             const FaceWeights& weights, const Band& band);
+  /// Collective. kappa_f += the implicit coefficient, with what e needs. stiffness_f += dt G
+  /// alpha_f lambda_B, with lambda_B linear between the cells. Nothing is added outside the band.
+  /// force += the explicit term.
+  void apply(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
+             const ElasticTerms& solid, const FaceWeights& weights, const Band& band);
 
  private:
   const Mesh& mesh_;

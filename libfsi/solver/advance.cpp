@@ -22,6 +22,10 @@ constexpr Real elastic_max = 1.2;           // of the elastic limit; beyond it w
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
+std::ptrdiff_t bodies_gone(const std::deque<Body>& bodies) {
+  return std::ranges::count_if(bodies, [](const Body& body) { return body.gone != 0; });
+}
+
 }  // namespace
 
 Solver::Rejection Solver::rejection_reason(Real dt) const {
@@ -175,6 +179,7 @@ Real Solver::advance(Real dt) {
   report_.held_back = dt > dt_cap_;
   dt = std::min(dt, dt_cap_);
   constexpr int halvings = 8;
+  const std::ptrdiff_t gone = bodies_gone(bodies_);
   std::string reason;
   for (int i = 0; i <= halvings; ++i, dt /= 2) {
     Rejection against;
@@ -191,7 +196,10 @@ Real Solver::advance(Real dt) {
       against = {error.what(), Term::solve, nullptr};
     }
     if (against.reason.empty()) {
-      if (i > 0) dt_cap_ = dt, report_.held_back = true;
+      report_.held_back = report_.held_back || i > 0;
+      // The limits of a solid that has left are gone at once. A step of ten times the last would
+      // extrapolate too far, and its pressure would be wrong.
+      if (i > 0 || bodies_gone(bodies_) > gone) dt_cap_ = dt;
       return dt;
     }
     reason = against.reason;

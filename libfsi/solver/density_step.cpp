@@ -37,7 +37,6 @@ void Solver::balance_weight(State& state) {
                                 .mu = mu_,
                                 .theta = mu_,
                                 .kappa = kappa_,
-                                .elastic = kappa_,
                                 .density = &heavy_->density,
                                 .force = &force_};
     FaceField<Real> flux(mesh_);

@@ -112,7 +112,7 @@ void Solver::clear_forces() {
   rhie_chow_source_.fill(0);
   interface_faces_.clear();
   interface_L_f_.clear();
-  for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_);
+  for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_, stiffness_);
 }
 
 void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& L) {
@@ -240,8 +240,8 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
                            body.band);
 }
 
-void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
-                       CellField<Tensor>& L, const FlowAround& flow, Real dt) {
+void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
+                       Body& body, CellField<Tensor>& L, const FlowAround& flow, Real dt) {
   if (!body.semi_implicit()) return;
   if (!flow.has_L) {
     gradient(L, flow.u, flow.u_b, flow.u_stencil, body.mesh, body.band.cells());
@@ -263,7 +263,7 @@ void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& bod
       .one_sided = body.interface_gradient.has_value(),
       .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
       .rho_least = flow.rho_least};
-  body.semi_implicit_elasticity.apply(kappa, force, terms, body.weights, body.band);
+  body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 
 FlowAround Solver::flow_around() {
@@ -312,10 +312,11 @@ void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
   fsi::add_elastic_force(force, rhie_chow_source_, body, L_, flow_around());
 }
 
-void Solver::add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt) {
+void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness,
+                               CellField<Vec3>& force, Real dt) {
   const Profile::Call call(profile_, calls_.add_semi_implicit);
   const FlowAround flow = flow_around();
-  for (Body& body : bodies_) fsi::add_semi_implicit(kappa, force, body, L_, flow, dt);
+  for (Body& body : bodies_) fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
   if (!stiff_) return;
   stiff_->assign(kappa);
   for (const Body& body : bodies_)

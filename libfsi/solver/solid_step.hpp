@@ -58,9 +58,9 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
                        const CellField<Tensor>& L, const FlowAround& flow);
 
 /// (12) Collective. Adds the two terms that keep a step of dt stable, if elasticity is implicit in
-/// part. kappa: cleared by Body::semi_implicit_elasticity before. Sets L on the band if the flow
-/// has none.
-void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Body& body,
-                       CellField<Tensor>& L, const FlowAround& flow, Real dt);
+/// part, and dt G alpha_f lambda_B to the stiffness. kappa and stiffness: cleared by
+/// Body::semi_implicit_elasticity before. Sets L on the band if the flow has none.
+void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
+                       Body& body, CellField<Tensor>& L, const FlowAround& flow, Real dt);
 
 }  // namespace fsi

@@ -69,6 +69,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       divergence_(mesh),
       mu_(mesh, physics.mu_f),
       kappa_(mesh),
+      stiffness_(mesh),
       rhie_chow_source_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_), symmetric(conditions_)),
       vertex_mean_(mesh, u_stencil_),
@@ -122,7 +123,6 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
                               .mu = mu_,
                               .theta = momentum_.theta_taken(),
                               .kappa = kappa_,
-                              .elastic = kappa_,
                               .rho = physics_.rho};
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.boundary().open, terms, weights_, mesh_);
   projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * mesh_.total_volume);
@@ -167,7 +167,7 @@ void Solver::step(Real dt) {
   mix_viscosity(mu_);                                          // (9)
   mix_density();                                               // (10)
   for (Body& body : bodies_) add_elastic_force(force_, body);  // (11)
-  add_semi_implicit(kappa_, force_, dt);                       // (12)
+  add_semi_implicit(kappa_, stiffness_, force_, dt);           // (12)
   add_body_force(force_, t + dt / 2);                          // (13)
   balance_weight(state_);                                      // (14)
   predict_momentum(state_.u, dt);                              // (15)
@@ -242,23 +242,21 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   for (std::size_t i = 0; i < interface_faces_.size(); ++i)
     L_f_[weights_.place[interface_faces_[i]]] = interface_L_f_[i];
-  const flow::FluxTerms terms{
-      .L_f = L_f_,
-      .p = state_.p,
-      .grad_p = grad_p_,
-      .grad_p_f = projection_.face_gradient(),
-      .p_b = p_b_,
-      .rhie_chow_source = rhie_chow_source_,
-      .mu = mu_,
-      .theta = momentum_.theta_taken(),
-      .kappa = implicit(),
-      .elastic = kappa_,
-      .rho = physics_.rho,
-      .dt = projection_.orthogonal() ? 0 : dt,  // then of u* alone
-      .density = heavy_ ? &heavy_->density : nullptr,
-      .force = heavy_ ? &heavy_->force : nullptr,
-      .stress = modes_.G,
-      .flux_strain = modes_.flux_strain ? 1 / solid::SemiImplicitElasticity::implicit_fraction : 0};
+  const flow::FluxTerms terms{.L_f = L_f_,
+                              .p = state_.p,
+                              .grad_p = grad_p_,
+                              .grad_p_f = projection_.face_gradient(),
+                              .p_b = p_b_,
+                              .rhie_chow_source = rhie_chow_source_,
+                              .mu = mu_,
+                              .theta = momentum_.theta_taken(),
+                              .kappa = implicit(),
+                              .rho = physics_.rho,
+                              .dt = projection_.orthogonal() ? 0 : dt,  // then of u* alone
+                              .density = heavy_ ? &heavy_->density : nullptr,
+                              .force = heavy_ ? &heavy_->force : nullptr,
+                              .stress = modes_.G,
+                              .stiffness = modes_.flux_strain ? &stiffness_ : nullptr};
   flow::predict_flux(phi, u, u_b_new_, momentum_.boundary().open, terms, weights_, mesh_);
 }
 

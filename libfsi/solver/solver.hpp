@@ -192,7 +192,8 @@ class Solver {
   void mix_viscosity(FaceField<Real>& mu);
   void mix_density();
   void add_elastic_force(CellField<Vec3>& force, Body& body);
-  void add_semi_implicit(FaceField<Real>& kappa, CellField<Vec3>& force, Real dt);
+  void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
+                         Real dt);
   void add_body_force(CellField<Vec3>& force, Real t);
   void balance_weight(State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
@@ -297,7 +298,7 @@ class Solver {
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
-  FaceField<Real> mu_, kappa_, rhie_chow_source_;
+  FaceField<Real> mu_, kappa_, stiffness_, rhie_chow_source_;
   GradientStencil u_stencil_;
   VertexMean<Tensor> vertex_mean_;
   std::vector<Tensor> L_f_;             // at irregular faces

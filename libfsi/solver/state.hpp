@@ -27,8 +27,9 @@ struct StepReport {
   Real pressure_residual = 0;  ///< norm over the cells of the net flux that the solve left
   std::int64_t rejected = 0;   ///< steps taken back; an Output counts from 0
   std::map<std::string, std::int64_t> rejections{};  ///< by reason, since the start or restart
-  bool held_back = false;  ///< the step is smaller than asked for, after a rejected one
-  std::string failure;     ///< why the run cannot go on; empty while it can
+  /// The step is smaller than asked for, after a rejected one or one in which a solid left.
+  bool held_back = false;
+  std::string failure;  ///< why the run cannot go on; empty while it can
 };
 
 }  // namespace fsi
