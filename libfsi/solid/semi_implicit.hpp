@@ -66,12 +66,13 @@ struct ElasticTerms {
 /// K = sum_f g |d|^2 / (2 V) the larger one of both cells. A velocity that differs from all its
 /// neighbours then changes by at most 1.5 of the difference in a step, for any shape of cell. K =
 /// dim on squares and regular simplices, and 10 or more on slivers. If e were bounded instead, its
-/// error at the surface would depend on the step, and with it the way of a body.
+/// error at the surface would depend on the step, and with it the way of a body. A raised kappa
+/// makes the first term one of first order in dt; as dt goes to 0 no kappa is raised.
 ///
 /// In the simplex zone with a one-sided L, a flux of e that would add energy to the strain is set
 /// to 0. Its product with u_N - u_P less the spin of avg L times d is negative. Such fluxes occur
 /// since a one-sided L is no mean of the gradients at the faces. There with the map kinematics e is
-/// twice the root instead, and kappa grows by e. Both cost an error of first order in dt.
+/// twice the root instead, and kappa grows by e, in steps of any length.
 class SemiImplicitElasticity {
  public:
   /// Collective. mesh and zone must outlive it.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -22,8 +23,15 @@ constexpr Real elastic_max = 1.2;           // of the elastic limit; beyond it w
 constexpr Real fraction_excess_max = 1e-8;  // of alpha over 1 or below 0
 constexpr Real volume_change_max = 1e-4;    // of a cell, left over by the pressure solve
 
+/// How many solids have left. The limits of such a solid are gone at once. A step of ten times the
+/// last would extrapolate too far, and its pressure would be wrong.
 std::ptrdiff_t bodies_gone(const std::deque<Body>& bodies) {
   return std::ranges::count_if(bodies, [](const Body& body) { return body.gone != 0; });
+}
+
+std::string failure_of(const State& state, Real least_dt) {
+  return print("step %lld from t = %.6g failed down to dt = %.2g: ",
+               static_cast<long long>(state.step + 1), state.t, least_dt);
 }
 
 }  // namespace
@@ -197,8 +205,6 @@ Real Solver::advance(Real dt) {
     }
     if (against.reason.empty()) {
       report_.held_back = report_.held_back || i > 0;
-      // The limits of a solid that has left are gone at once. A step of ten times the last would
-      // extrapolate too far, and its pressure would be wrong.
       if (i > 0 || bodies_gone(bodies_) > gone) dt_cap_ = dt;
       return dt;
     }
@@ -209,10 +215,7 @@ Real Solver::advance(Real dt) {
     ++report_.rejected;
     ++report_.rejections[against.reason];
   }
-  report_.failure =
-      print("step %lld from t = %.6g failed down to dt = %.2g: ",
-            static_cast<long long>(state_.step + 1), state_.t, tiny_steps_ > 0 ? dt : 2 * dt) +
-      reason;
+  report_.failure = failure_of(state_, tiny_steps_ > 0 ? dt : 2 * dt) + reason;
   return 0;
 }
 
