@@ -50,7 +50,7 @@ Vec3 change_along(const Vec3& way, const CellField<Real>& alpha, const CellField
   return {total[0], total[1], total[2]};
 }
 
-/// Centre of the fullest cell, of equals the first in the mesh file: a point in the solid.
+/// Centre of the fullest cell, of equals the first in the mesh as read: a point in the solid.
 Vec3 point_inside(const CellField<Real>& alpha, const Mesh& mesh) {
   Real most = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) most = std::max(most, alpha[c]);

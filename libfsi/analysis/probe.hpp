@@ -12,7 +12,7 @@ struct Probe {
   Index cell = -1;  ///< on this rank; -1: on none
 };
 
-/// Collective. Ties go to the cell that comes first in the mesh file.
+/// Collective. Ties go to the cell that comes first in the mesh as read.
 Probe probe(const Mesh& mesh, const Vec3& point);
 
 /// Collective. value + gradient . offset, on every rank: second order where the gradient is first.

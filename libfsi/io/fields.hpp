@@ -29,8 +29,8 @@ NamedField named(const std::string& name, const CellField<T>& field) {
 
 /// Writes fields_mesh.hdf once, fields_NNNN.hdf for each time (which links to the mesh) and
 /// fields.hdf.series, the file to open, which lists them by time. Cells are in the order of the
-/// mesh file for any number of ranks; the components of a SymTensor as ParaView names them: XX YY
-/// ZZ XY YZ XZ.
+/// mesh as read for any number of ranks; the components of a SymTensor as ParaView names them: XX
+/// YY ZZ XY YZ XZ.
 class FieldWriter {
  public:
   /// Collective. Takes up the series in the directory up to time resume_at and removes what lies

@@ -14,7 +14,7 @@
 namespace fsi::io {
 namespace {
 
-/// Collective. Rank 0: the values of all ranks' cells in the order of the mesh file.
+/// Collective. Rank 0: the values of all ranks' cells in the order of the mesh as read.
 std::vector<Real> in_file_order(const Mesh& mesh, std::span<const Index> cells,
                                 std::span<const Real> values) {
   std::vector<std::pair<GlobalIndex, Real>> mine, all;

@@ -52,7 +52,7 @@ std::int64_t before(std::size_t mine) {
   return rank() == 0 ? 0 : sum;
 }
 
-/// Numbers the points of owned cells in the order of the mesh file; fills this rank's stretch of
+/// Numbers the points of owned cells in the order of the mesh as read; fills this rank's stretch of
 /// them. Returns the number of each local point; -1 where no owned cell has it.
 std::vector<std::int64_t> number_points(const Mesh& mesh, VtkMesh& vtk) {
   Index ids = 0;

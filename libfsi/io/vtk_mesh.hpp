@@ -10,7 +10,7 @@
 namespace fsi::io {
 
 /// A stretch of the cells in file order and of the points they use, each once, numbered in the
-/// order of the mesh file: rank after rank the same on any number of ranks.
+/// order of the mesh as read: rank after rank the same on any number of ranks.
 struct VtkMesh {
   std::vector<Real> points;                ///< [points * 3]
   std::vector<std::int64_t> connectivity;  ///< points of the cells, in VTK's order

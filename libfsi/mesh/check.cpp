@@ -10,6 +10,7 @@
 #include "libfsi/mesh/check_cells.hpp"
 #include "libfsi/mesh/messages.hpp"
 #include "libfsi/mesh/metrics.hpp"
+#include "libfsi/mesh/numbering.hpp"
 #include "libfsi/mesh/periodic.hpp"
 
 namespace fsi {
@@ -259,6 +260,7 @@ CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
   check_folded(list, raw, mate);
   check_connected(list, raw.file, mate);
   name_faces(raw, periodic, mate, list);
+  number_for_memory(list);
   list.hash = hash_of(list);
   return list;
 }

@@ -37,13 +37,13 @@ struct Patch {
 /// One rank's part of the mesh.
 ///
 /// Cells: [0, n_owned) owned, [n_owned, n_cells) halo (all cells that share a vertex with an owned
-/// one). Both parts are sorted by global_id, which does not depend on the number of ranks. Faces:
-/// every face of an owned cell, and no other. [0, n_internal) internal, then the boundary faces
-/// patch by patch. The owner P of an internal face is the cell with the lower global_id, so
-/// orientation is the same on all ranks; either cell may be a halo cell. Faces are sorted by
-/// (global_id of owner, of neighbour). Periodic pairs are internal faces; only `d`, `shift` and
-/// `translation` show the period. 2-D: cells are polygons in the plane z = 0, V is an area, faces
-/// are edges, |Sf| a length.
+/// one). Both parts are sorted by global_id, which does not depend on the number of ranks: the
+/// order of the file, or that of number_for_memory. Faces: every face of an owned cell, and no
+/// other. [0, n_internal) internal, then the boundary faces patch by patch. The owner P of an
+/// internal face is the cell with the lower global_id, so orientation is the same on all ranks;
+/// either cell may be a halo cell. Faces are sorted by (global_id of owner, of neighbour). Periodic
+/// pairs are internal faces; only `d`, `shift` and `translation` show the period. 2-D: cells are
+/// polygons in the plane z = 0, V is an area, faces are edges, |Sf| a length.
 struct Mesh {
   int dim = 3;                                                  ///< 2 or 3
   Index n_owned = 0, n_cells = 0, n_internal = 0, n_faces = 0;  ///< counts on this rank, as above
@@ -65,7 +65,7 @@ struct Mesh {
   // cells
   std::vector<Vec3> C;                 ///< [n_cells] centroid
   std::vector<Real> V;                 ///< [n_cells] volume, area in 2-D
-  std::vector<GlobalIndex> global_id;  ///< [n_cells] position of the cell in the mesh file, from 0
+  std::vector<GlobalIndex> global_id;  ///< [n_cells] number in the mesh as read, from 0
   Csr cell_faces;                      ///< [n_owned] faces of the cell, ascending
   /// [n_owned] cells that share a vertex, itself excluded, sorted by (global_id, shift)
   Csr cell_neighbours;
@@ -77,7 +77,7 @@ struct Mesh {
   std::vector<Vec3> points;     ///< corners of owned and halo cells
   Csr cell_points;              ///< [n_cells] corners, in the order of the gmsh format
   std::vector<Index> vertex;    ///< [points] the same number for points joined by a period
-  std::vector<Index> point_id;  ///< [points] position of the point in the mesh file, from 0
+  std::vector<Index> point_id;  ///< [points] number in the mesh as read, from 0
   std::vector<Index>
       vertex_id;  ///< [points] that of the one point all joined by a period stand for
   std::vector<Vec3> translation{Vec3{}};  ///< row 0 is zero

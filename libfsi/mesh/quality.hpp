@@ -28,11 +28,11 @@ Real aspect_ratio(CellType type, std::span<const Vec3> corners);
 /// That of cell c.
 Real aspect_ratio(const Mesh& mesh, Index c);
 
-/// A figure and the cell that has it: its centre, number in the mesh file (from 0) and type.
+/// A figure and the cell that has it: its centre, number in the mesh as read (from 0) and type.
 struct Worst {
   Real value = 0;                 ///< the figure
   Vec3 x{};                       ///< centre of the cell
-  GlobalIndex cell = -1;          ///< its number in the mesh file
+  GlobalIndex cell = -1;          ///< its number in the mesh as read
   CellType type = CellType::tet;  ///< its kind
 };
 
