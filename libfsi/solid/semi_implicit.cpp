@@ -30,16 +30,30 @@ Real part_of_N(const ElasticTerms& solid, const FaceWeights& weights, const Mesh
 
 }  // namespace
 
-Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
+std::vector<Real> wave_widths(const Mesh& mesh, WaveWidth kind) {
+  CellField<Real> own(mesh);
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real area = 0;
+    for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm2(mesh.Sf[f]));
+    own[c] = mesh.V[c] / std::sqrt(area);
+  }
+  mesh.halo.update(own);
+  std::vector<Real> width(own.data(), own.data() + mesh.n_owned);
+  for (Index c = 0; kind == WaveWidth::of_neighbourhood && c < mesh.n_owned; ++c) {
+    if (!mesh.simplex(c)) continue;
+    Real volume = mesh.V[c], sum = volume * own[c];
+    for (const Index n : mesh.cell_neighbours[c]) volume += mesh.V[n], sum += mesh.V[n] * own[n];
+    width[c] = sum / volume;
+  }
+  return width;
+}
+
+Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, std::span<const Real> width,
                   std::span<const Index> cells) {
   Real time = std::numeric_limits<Real>::max();
   if (G <= 0) return time;
-  for (const Index c : cells) {
-    Real area = 0;
-    for (const Index f : mesh.cell_faces[c]) area = std::max(area, norm2(mesh.Sf[f]));
-    const Real h = mesh.V[c] / std::sqrt(area);
-    time = std::min(time, h * std::sqrt(rho / (G * std::max(lambda[c], 1.0))));
-  }
+  for (const Index c : cells)
+    time = std::min(time, width[c] * std::sqrt(rho / (G * std::max(lambda[c], 1.0))));
   return time;
 }
 

@@ -2,6 +2,7 @@
 // The elastic limit of a step, and two terms that allow steps beyond it.
 
 #include <span>
+#include <vector>
 
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
@@ -10,10 +11,19 @@
 
 namespace fsi::solid {
 
+/// Width of a cell for a wave. `own`: V / max |Sf|. `of_neighbourhood`: for a triangle or
+/// tetrahedron the mean of these over the cells that share a vertex with it and itself, weighted
+/// with their volumes; for any other cell its own.
+enum class WaveWidth { own, of_neighbourhood };
+/// Collective. h_w of the owned cells.
+std::vector<Real> wave_widths(const Mesh& mesh, WaveWidth kind);
+
 /// Time in which the elastic shear wave passes a cell: the least h_w (rho / (G lambda_B))^(1/2)
-/// over the cells, with the width h_w = V / max |Sf| and lambda_B of at least 1 [Matsumiya25] (15).
-/// This rank's cells only.
-Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, const Mesh& mesh,
+/// over the cells, with lambda_B of at least 1 [Matsumiya25] (15). This rank's cells only. The
+/// widths are the cells' own where elasticity is explicit. Where the terms below keep every wave
+/// stable, the limit is one of accuracy, and a flat cell among others does not shorten the waves
+/// that the mesh resolves.
+Real elastic_time(const CellField<Real>& lambda, Real G, Real rho, std::span<const Real> width,
                   std::span<const Index> cells);
 
 /// What a face operator on the solid reads.

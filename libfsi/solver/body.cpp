@@ -59,6 +59,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       kinematics(make(mesh, solid.kinematics, {filled.cut_by.faces})),
       elastic_force(mesh, weights, G),
       semi_implicit_elasticity(mesh, weights, zone),
+      wave_width(solid::wave_widths(
+          mesh, semi_implicit() ? solid::WaveWidth::of_neighbourhood : solid::WaveWidth::own)),
       grad(mesh),
       shape(solid.shape),
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),

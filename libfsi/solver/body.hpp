@@ -178,6 +178,7 @@ struct Body {
   Kinematics kinematics;                                   ///< how the strain is carried
   solid::ElasticForce elastic_force;                       ///< div tau
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
+  std::vector<Real> wave_width;                            ///< of owned cells, for the step's limit
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< with log_conformation

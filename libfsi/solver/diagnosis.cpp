@@ -142,7 +142,7 @@ std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) con
   };
   const auto courant = [&](Index c) { return body.dt * courant_rate(state_.phi, mesh_, c); };
   const auto waves = [&](Index c) {
-    return dt / solid::elastic_time(body.lambda, body.G, body.rho, mesh_, {&c, 1});
+    return dt / solid::elastic_time(body.lambda, body.G, body.rho, body.wave_width, {&c, 1});
   };
   const std::vector<Real> inverse = inverse_eigenvalues(body, mesh_);
   const auto crushed = [&](Index c) { return inverse[c]; };

@@ -75,7 +75,8 @@ Real Solver::elastic_dt(const Body& body) const {
   constexpr Real two_densities = 0.75;
   const Real part = body.rho != physics_.rho ? two_densities : 1;
   return part * body.elastic_number() *
-         global_min(solid::elastic_time(body.lambda, body.G, body.rho, mesh_, body.band.core()));
+         global_min(
+             solid::elastic_time(body.lambda, body.G, body.rho, body.wave_width, body.band.core()));
 }
 
 Real Solver::elastic_dt() const {

@@ -256,14 +256,15 @@ TEST(SemiImplicitElasticity, TimeOfTheElasticWave) {
   s.apply();
   const Real rho = 2, h = 0.1;
   CellField<Real> lambda(s.mesh);
+  const auto widths = solid::wave_widths(s.mesh, solid::WaveWidth::own);
   const auto time = [&] {
     for (const Index c : s.band.core()) lambda[c] = eigen(s.B[c]).value[2];
-    return global_min(solid::elastic_time(lambda, G, rho, s.mesh, s.band.core()));
+    return global_min(solid::elastic_time(lambda, G, rho, widths, s.band.core()));
   };
   EXPECT_NEAR(time(), h * std::sqrt(rho / G), 1e-14);
   s.B.fill({2, 1, 0, 1, 0, 1});  // g = 1: lambda = (3 + sqrt 5) / 2
   EXPECT_NEAR(time(), h * std::sqrt(rho / G / (1.5 + std::sqrt(1.25))), 1e-14);
-  EXPECT_EQ(solid::elastic_time(lambda, 0, rho, s.mesh, s.band.core()),
+  EXPECT_EQ(solid::elastic_time(lambda, 0, rho, widths, s.band.core()),
             std::numeric_limits<Real>::max());
 }
 

@@ -53,9 +53,26 @@ TEST(ElasticTime, OfTheShearWave) {
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.n_owned; ++c) cells.push_back(c);
   const CellField<Real> stretched(mesh, 4), pressed(mesh, 0.25);
-  EXPECT_NEAR(global_min(elastic_time(stretched, 4, 1, mesh, cells)), 0.25 / 4, 1e-14);
-  EXPECT_NEAR(global_min(elastic_time(pressed, 4, 1, mesh, cells)), 0.25 / 2, 1e-14);
-  EXPECT_GT(elastic_time(stretched, 0, 1, mesh, cells), 1e300);
+  const auto widths = wave_widths(mesh, WaveWidth::of_neighbourhood);  // of squares their own
+  EXPECT_NEAR(global_min(elastic_time(stretched, 4, 1, widths, cells)), 0.25 / 4, 1e-14);
+  EXPECT_NEAR(global_min(elastic_time(pressed, 4, 1, widths, cells)), 0.25 / 2, 1e-14);
+  EXPECT_GT(elastic_time(stretched, 0, 1, widths, cells), 1e300);
+}
+
+// A flat triangle has the mean width of the triangles around it.
+TEST(WaveWidth, AFlatTriangleDoesNotCount) {
+  const Mesh even = test::read_box({.n = {4, 4, 0}, .simplex = true});
+  const auto move = [](Vec3 x) { return std::abs(x.x - 0.5) < 1e-9 ? Vec3{0.27, x.y, x.z} : x; };
+  const Mesh flat = test::read_box({.n = {4, 4, 0}, .simplex = true, .moved = move});
+  const auto least = [](const Mesh& mesh, WaveWidth kind) {
+    const auto widths = wave_widths(mesh, kind);
+    return global_min(*std::ranges::min_element(widths));
+  };
+  // V / max |Sf| of the half of a rectangle of a by b is a b / (2 (a^2 + b^2)^(1/2))
+  EXPECT_NEAR(least(even, WaveWidth::own), 0.25 / std::sqrt(8.), 1e-14);
+  EXPECT_NEAR(least(even, WaveWidth::of_neighbourhood), 0.25 / std::sqrt(8.), 1e-14);
+  EXPECT_LT(least(flat, WaveWidth::own), 0.011);
+  EXPECT_GT(least(flat, WaveWidth::of_neighbourhood), 0.06);
 }
 
 constexpr Real G = 3;
