@@ -1,5 +1,6 @@
 #include "libfsi/core/error.hpp"
 
+#include <new>
 #include <string_view>
 
 namespace fsi {
@@ -16,6 +17,7 @@ std::string petsc_text(int code) {
 }
 
 void petsc_failed(int code, const char* call, const char* file, int line) {
+  if (code == PETSC_ERR_MEM) throw std::bad_alloc();
   const std::string text = petsc_text(code);
   const bool of_user = std::string_view(call).find("FromOptions") != std::string_view::npos ||
                        code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR ||

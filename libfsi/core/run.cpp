@@ -1,6 +1,6 @@
 #include "libfsi/core/run.hpp"
 
-#include <petscsys.h>
+#include <petscmat.h>
 
 #include <chrono>
 #include <cstdio>
@@ -123,6 +123,10 @@ void start_petsc(Arguments& arguments) {
           (names.empty() ? "the options" : "the options, with those of the file " + names + ",") +
               " cannot be read: " + petsc_text(code));
   FSI_PETSC(PetscPopSignalHandler());
+  // PETSc numbers its events as classes are first used, and -log_view joins ranks by number. Rank 0
+  // orders the cells by a matrix before the others use any.
+  FSI_PETSC(ISInitializePackage());
+  FSI_PETSC(MatInitializePackage());
   tell_of_petscrc();
   if (arguments.help) FSI_PETSC(PetscOptionsSetValue(nullptr, "-help", ""));
 }

@@ -25,7 +25,7 @@ struct CellFigure {
 };
 
 /// Collective. Some of the owned cells of each rank with their figures and `cell`, the number in
-/// the mesh file (from 0), as one file that ParaView opens by itself. Errors: Error{io}.
+/// the mesh as read (from 0), as one file that ParaView opens by itself. Errors: Error{io}.
 void write_cells(const std::string& path, const Mesh& mesh, std::span<const Index> cells,
                  std::span<const CellFigure> figures);
 

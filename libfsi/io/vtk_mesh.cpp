@@ -130,7 +130,7 @@ VtkMesh vtk_mesh(const Mesh& mesh) {
 }
 
 VtkMesh vtk_cells(const Mesh& mesh, std::span<const Index> cells) {
-  std::vector<Real> mine;  // of each cell its number in the file, its corners and where they are
+  std::vector<Real> mine;  // of each cell its number, its corners and where they are
   for (const Index c : cells) {
     const auto corners = mesh.cell_points[c];
     mine.push_back(static_cast<Real>(mesh.global_id[c]));

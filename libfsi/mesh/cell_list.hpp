@@ -21,8 +21,8 @@ struct CellList {
   std::vector<Vec3> points;     ///< places of the points
   std::vector<Index> vertex;    ///< [points] in [0, points); the same for points joined by a period
   std::vector<Offset> offset;   ///< [points] x - x(vertex) = sum_k offset[k] periods[k]
-  std::vector<Index> point_id;  ///< [points] number in the file; set by the division
-  std::vector<Index> vertex_id;  ///< [points] number in the file of the point `vertex` stands for
+  std::vector<Index> point_id;  ///< [points] number in the mesh as read; set by the division
+  std::vector<Index> vertex_id;  ///< [points] that of the point `vertex` stands for
   std::vector<CellType> types;   ///< [cells]
   Csr corners;                   ///< [cells] points, ordered as Shape has them
   std::vector<std::array<std::int8_t, max_faces>> face_patch;  ///< [cells] -1: internal

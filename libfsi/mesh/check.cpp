@@ -260,7 +260,7 @@ CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic) {
   check_folded(list, raw, mate);
   check_connected(list, raw.file, mate);
   name_faces(raw, periodic, mate, list);
-  number_for_memory(list);
+  number_for_memory(list, mate);
   list.hash = hash_of(list);
   return list;
 }

@@ -9,7 +9,8 @@
 
 namespace fsi {
 
-/// One rank. Checks the mesh, joins the periodic pairs and names the boundary faces. Errors:
+/// One rank. Checks the mesh, joins the periodic pairs, names the boundary faces and
+/// numbers cells and points (numbering.hpp): the mesh as read. Errors:
 /// Error{input}, one sentence that names the file, the entity, where it lies and the valid choices.
 CellList check_mesh(RawMesh raw, const std::vector<std::string>& periodic);
 

@@ -36,7 +36,7 @@ std::pair<Plex, StarForest> migrate(Plex before, const Parts& parts) {
 
 /// A rank's cells after the division.
 struct Share {
-  std::vector<Index> file_cell;  // position in the file; owned first, both parts ascending
+  std::vector<Index> file_cell;  // number in the mesh as read; owned first, both parts ascending
   Index n_owned = 0;
   std::vector<int> halo_owner;
   std::vector<Index> halo_owner_cell;
@@ -154,7 +154,7 @@ void broadcast_common(const CellList& whole, CellList& mine) {
 }
 
 /// The slab's cells with the points they need, as build_mesh and the graph want them; corners and
-/// vertices are counted here, vertex_id in the file.
+/// vertices are counted here, vertex_id in the mesh as read.
 CellList with_points(const CellList& slab) {
   CellList here;
   here.dim = slab.dim;

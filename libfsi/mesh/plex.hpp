@@ -19,10 +19,10 @@ struct Division {
 };
 
 /// Collective. From the mesh as it is read to its division. `slab`: this rank's stretch of the
-/// cells and of the points, both in the order of the file, corners and vertices by their number in
-/// the file. It may be all of it on rank 0, or as much on every rank. What a CellList has the same
-/// on every rank is taken from rank 0. Returns this rank's cells and every cell that shares a
-/// vertex with one of them. Error{input} for an unknown partitioner.
+/// cells and of the points, both in the order of the mesh as read, corners and vertices by their
+/// number in the file. It may be all of it on rank 0, or as much on every rank. What a CellList has
+/// the same on every rank is taken from rank 0. Returns this rank's cells and every cell that
+/// shares a vertex with one of them. Error{input} for an unknown partitioner.
 CellList distribute(CellList slab, const Division& how);
 
 }  // namespace fsi

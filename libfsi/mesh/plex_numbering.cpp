@@ -1,7 +1,6 @@
 #include <petscmat.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -13,8 +12,8 @@
 namespace fsi {
 namespace {
 
-/// [CuthillMcKee69], turned round: the place of each cell.
-std::vector<Index> reverse_cuthill_mckee(Csr graph) {
+/// [CuthillMcKee69], turned round: the place of each cell. PETSc reads the graph where it is.
+std::vector<Index> reverse_cuthill_mckee(Csr& graph) {
   const Index n = graph.rows();
   std::vector<PetscScalar> values(graph.index.size(), 1);
   Handle<Mat, MatDestroy> matrix;
@@ -66,8 +65,7 @@ void move_points(CellList& list) {
 
 }  // namespace
 
-Csr cells_across(const CellList& list) {
-  const std::vector<Index> mate = match_faces(list);
+Csr cells_across(const CellList& list, std::span<const Index> mate) {
   Csr across;
   for (Index c = 0; c < list.n_cells(); ++c) {
     for (int f = 0; f < shape_of(list.types[c]).faces; ++f) {
@@ -84,15 +82,14 @@ Csr cells_across(const CellList& list) {
 }
 
 double lines_per_cell(const Csr& across, std::span<const Index> place) {
-  constexpr Index numbers_a_line = 8, lines = 128;
+  constexpr GlobalIndex numbers_a_line = 8, lines = 32;
   std::vector<Index> at(place.size());
   for (std::size_t c = 0; c < place.size(); ++c) at[place[c]] = static_cast<Index>(c);
-  std::array<Index, lines> held;
-  held.fill(-1);
   GlobalIndex fetched = 0;
+  std::vector<GlobalIndex> fetch(place.size() / numbers_a_line + 1, -lines);  // of each line
   const auto read = [&](Index c) {
-    const Index line = place[c] / numbers_a_line;
-    if (std::exchange(held[line % lines], line) != line) ++fetched;
+    GlobalIndex& last = fetch[place[c] / numbers_a_line];
+    if (fetched - last >= lines) last = fetched++;
   };
   for (const Index c : at) {
     read(c);
@@ -101,12 +98,13 @@ double lines_per_cell(const Csr& across, std::span<const Index> place) {
   return static_cast<double>(fetched) / static_cast<double>(place.size());
 }
 
-bool number_for_memory(CellList& list) {
-  const Csr across = cells_across(list);
+bool number_for_memory(CellList& list, std::span<const Index> mate) {
+  Csr across = cells_across(list, mate);
   std::vector<Index> same(list.types.size());
   std::iota(same.begin(), same.end(), 0);
   const std::vector<Index> place = reverse_cuthill_mckee(across);
   if (lines_per_cell(across, same) <= lines_per_cell(across, place)) return false;
+  across = {};
   move_cells(list, place);
   move_points(list);
   return true;

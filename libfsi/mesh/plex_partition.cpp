@@ -24,8 +24,8 @@ std::int32_t load_units(Real load) {
 
 /// A face as one of its cells sends it to the rank that joins both cells.
 struct Side {
-  std::array<Index, max_face_corners> key;  // vertices by number in the file, ascending
-  Index cell;                               // number in the file
+  std::array<Index, max_face_corners> key;  // vertices by number in the mesh as read, ascending
+  Index cell;                               // number in the mesh as read
 };
 
 /// The cell on the other side of each; -1: none.

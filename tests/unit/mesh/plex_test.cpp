@@ -134,6 +134,15 @@ TEST(MeshFile, GivesTheMeshOfTheGmshFile) {
   }
 }
 
+TEST(MeshFile, HoldsTheOrderOfTheMeshAsRead) {
+  Block block = block_of(CellType::tet);
+  block.n = {30, 17, 5};  // so many that cells are numbered anew
+  const TextFile text(BlockText(block).text());
+  const H5File file(text);
+  EXPECT_EQ(convert_mesh(text.path(), file.path, {"left", "right"}), 30 * 17 * 5 * 6);
+  expect_same(divided(file.path, {}), divided(text.path(), {"left", "right"}));
+}
+
 TEST(MeshFile, IsReadByPetsc) {
   const TextFile text(BlockText(block_of(CellType::hex)).text());
   const H5File file(text);
