@@ -1,6 +1,5 @@
 #include "libfsi/core/error.hpp"
 
-#include <new>
 #include <string_view>
 
 namespace fsi {
