@@ -6,6 +6,7 @@ doc/howto/pictures.md shows what the options are for.
 """
 import argparse
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "python"))
@@ -37,6 +38,14 @@ def direction(text):
     return found
 
 
+def plane(text):
+    found = re.fullmatch("([xyz])=(.+)", text)
+    try:
+        return found[1], float(found[2])
+    except (TypeError, ValueError):
+        raise argparse.ArgumentTypeError("a plane of symmetry is expected, as z=0.5") from None
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -59,6 +68,8 @@ def arguments():
     parser.add_argument("--camera", type=direction, metavar="X,Y,Z", help="the direction from which one looks "
                         "in 3-D, --camera=-1,0.5,0 where the first number is negative; not given: a little "
                         "aside of the normal of --plane")
+    parser.add_argument("--mirror", type=plane, metavar="PLANE", help="the image beyond a plane of symmetry "
+                        "too, as z=0.5, at an end of the mesh; volumes, energies and flow rates are of both sides")
     parser.add_argument("--relative", action="store_true", help="streamlines of flow.png and view.png as "
                         "seen by who moves with the body")
     parser.add_argument("--time", type=float, help="view.png at the field file nearest to this time; not "
@@ -131,7 +142,7 @@ def look_of(wish, normal):
 def main():
     wish = arguments()
     style.apply()
-    runs = [fsi.Run(folder) for folder in wish.folder]
+    runs = [fsi.Mirrored(folder, *wish.mirror) if wish.mirror else fsi.Run(folder) for folder in wish.folder]
     for run in runs:
         if not run.items and not any(run.tables.values()):
             raise ValueError(f"{run.folder} holds neither tables nor fields of a run")

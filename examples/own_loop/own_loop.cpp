@@ -45,6 +45,7 @@ fsi::RunStatus own_loop() {
   const std::vector<fsi::Tensor> L_f;    // at irregular faces: there are none
   const fsi::GradientStencil stencil(mesh, weights, {true, true});  // u is given on both patches
   flow::Projection projection(mesh, weights, conditions, fsi::Method::direct, 0);
+  const flow::ViscousPressure viscous_pressure(mesh, weights);
   flow::WallParabola parabola(mesh, conditions, stencil);
   flow::Momentum momentum(mesh, weights, conditions, physics.rho, physics.mu_f);
   momentum.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
@@ -114,7 +115,7 @@ fsi::RunStatus own_loop() {
       u[c] -= grad_q[c];
       p[c] += physics.rho / dt * q[c];
     }
-    flow::add_viscous_pressure(p, divergence, mu, kappa, momentum.theta_taken(), weights, mesh);
+    viscous_pressure.add(p, divergence, mu, kappa, momentum.theta_taken());
   }
 
   // 5 the same by the library's own step

@@ -327,16 +327,28 @@ def _throats(runs):
     return listed(found, "{:.2f}"), all(np.isfinite(time) for _, time in found)
 
 
+def judged(each, runs):
+    """What is measured of a claim, and whether it holds: yes, no, or open where a run is not complete."""
+    try:
+        measured, holds = each.test(runs)
+    except Missing as missing:
+        return f"{missing} is not complete", "open"
+    return measured, "yes" if holds else "no"
+
+
 def write(preset, out):
-    """Writes OUT/claims.md; its path. A claim whose runs are not complete is told as open."""
-    runs, lines = Runs(preset, out), ["| figure | claim | measured | holds |", "|---|---|---|---|"]
+    """Writes OUT/claims.md; its path. Where the study of another preset stands beside OUT, it has columns too, so
+    that one sees what the mesh changes."""
+    above, studies = os.path.dirname(os.path.abspath(out)), {}
+    for name, each in sorted(study.PRESETS.items(), key=lambda item: item[1] is not preset):
+        folder = out if each is preset else os.path.join(above, name)
+        if each is preset or any(os.path.isdir(os.path.join(folder, part)) for part in study.PIPE):
+            studies[name] = Runs(each, folder)
+    lines = ["| figure | claim | " + " | ".join(f"{name}: measured | holds" for name in studies) + " |",
+             "|---" * (2 + 2 * len(studies)) + "|"]
     for each in CLAIMS:
-        try:
-            measured, holds = each.test(runs)
-            word = "yes" if holds else "no"
-        except Missing as missing:
-            measured, word = f"{missing} is not complete", "open"
-        lines.append(f"| {each.figure} | {each.text} | {measured} | {word} |")
+        cells = [each.figure, each.text, *(word for runs in studies.values() for word in judged(each, runs))]
+        lines.append("| " + " | ".join(cells) + " |")
     path = os.path.join(out, "claims.md")
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")

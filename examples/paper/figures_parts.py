@@ -10,7 +10,7 @@ import numpy as np
 
 import study
 
-from measures import fsi, moving_mean, turn
+from measures import fsi, moving_mean, opened, turn
 from fsi import cells, render, scene, style
 
 TIME = r"$t^*$ in units of $D/2\bar{u}$ = 10 ms"
@@ -82,8 +82,8 @@ class Study:
         folder = os.path.join(self.out, sweep, point)
         if folder not in self._runs:
             there = os.path.exists(os.path.join(folder, "run.yaml"))
-            run = fsi.Run(folder) if there else None
-            self._runs[folder] = run if there and run.tables["flow"] else None
+            run = opened(self.preset, sweep, folder) if there else None
+            self._runs[folder] = run if run and run.tables["flow"] else None
         return self._runs[folder]
 
     def family(self, name):

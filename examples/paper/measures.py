@@ -13,6 +13,21 @@ class Missing(Exception):
     """A run that a claim needs is not complete."""
 
 
+def opened(preset, sweep, folder):
+    """A run of a sweep, of both sides where half was run; None where a run on another mesh stands there.
+
+    In a mesh that goes along, `ux` is the velocity in the pipe at rest, and all else that of the mesh's frame.
+    """
+    options = fsi.options(os.path.join(folder, "run.yaml"))
+    of = next((each for each in study.sweeps(preset) if each.name == sweep), None)
+    if of is None or os.path.basename(options.get("mesh", "")) != of.mesh:
+        return None
+    run = fsi.Mirrored(folder, "z", 0.5) if of.half else fsi.Run(folder)
+    if "ux" in run.tables["solid"]:
+        run.tables["solid"]["ux"] += float(options.get("flow_frame_velocity", 0))
+    return run
+
+
 class Runs:
     """The runs of a study by sweep and point."""
 
@@ -24,8 +39,8 @@ class Runs:
         if folder not in self.known:
             if not os.path.exists(os.path.join(folder, "summary.json")):
                 raise Missing(f"{sweep}/{point}")
-            run = fsi.Run(folder)
-            if run.summary.get("status") != "complete":
+            run = opened(self.preset, sweep, folder)
+            if run is None or run.summary.get("status") != "complete":
                 raise Missing(f"{sweep}/{point}")
             self.known[folder] = run
         return self.known[folder]

@@ -2,6 +2,7 @@
 import argparse
 import csv
 import os
+import re
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -12,17 +13,21 @@ PARTS = ("flow", "disc", "pipe", "stenosis", "figures", "claims")
 
 @dataclass
 class Preset:
-    """Cells per diameter of the parts; several where a part compares meshes."""
+    """Cells per diameter of the parts; several where a part compares meshes. Pipe and stenosis are the half
+    z > 0.5. fine: diameters of the pipe along which its mesh is fine, and goes along with the ring; 0: all of the
+    pipe is, and rests. guide: cells per diameter of runs at rest that tell how fast a ring goes."""
 
     flow: tuple
     disc: tuple
     pipe: int
     stenosis: int
+    fine: float = 0
+    guide: int = 24
 
 
 PRESETS = {"coarse": Preset((16, 20, 24), (16, 32, 64), 24, 24),
            "medium": Preset((16, 24, 32), (16, 32, 64, 128), 32, 32),
-           "paper": Preset((32, 48, 64), (16, 32, 64, 128), 64, 48)}
+           "paper": Preset((32, 48, 64), (16, 32, 64, 128), 64, 48, fine=2)}
 PIPE = ("tilt", "place", "thickness", "modulus", "viscosity", "size", "kinematics")
 THROATS = (6, 3, 1)
 
@@ -39,6 +44,13 @@ class Sweep:
     dimension: int
     geometry: str
     parameters: dict
+    guide: str = ""  # the sweep over the same points at rest
+    options: tuple = ()  # beside those of the case
+
+    @property
+    def half(self):
+        """Whether it runs the half of what it is about, to one side of the plane z = 0.5."""
+        return "half" in self.parameters
 
     @property
     def mesh(self):
@@ -51,11 +63,17 @@ def sweeps(preset):
         yield Sweep("flow", f"flow-{n}", "flow", "fsi-pipe", "pipe", 3, "pipe", {"n": n, "length": 1})
     for n in preset.disc:
         yield Sweep("disc", f"disc-{n}", "disc", "fsi-cavity", "disc", 2, "cavity", {"n": n})
+    whole = {"n": preset.guide if preset.fine else preset.pipe, "length": 5, "half": 1}
     for name in PIPE:
-        yield Sweep("pipe", name, name, "fsi-pipe", "pipe", 3, "pipe", {"n": preset.pipe, "length": 5})
+        if preset.fine:
+            yield Sweep("pipe", name + "-guide", name, "fsi-pipe", "pipe", 3, "pipe", whole)
+            yield Sweep("pipe", name, name, "fsi-pipe", "pipe", 3, "pipe",
+                        {**whole, "n": preset.pipe, "fine": preset.fine}, name + "-guide")
+        else:
+            yield Sweep("pipe", name, name, "fsi-pipe", "pipe", 3, "pipe", whole)
     for throat in THROATS:
         yield Sweep("stenosis", f"throat-{throat}", "shapes", "fsi-stenosis", "stenosis", 3, "stenosis",
-                    {"n": preset.stenosis, "throat": throat})
+                    {"n": preset.stenosis, "throat": throat, "half": 1})
 
 
 def points(name):
@@ -63,6 +81,42 @@ def points(name):
     with open(os.path.join(HERE, name + ".csv"), encoding="utf-8") as file:
         rows = list(csv.DictReader(file, skipinitialspace=True))
     return [row.get("name") or "_".join(f"{k}={v}" for k, v in row.items() if v != "-") for row in rows]
+
+
+def make_table(sweep, out):
+    """The table of a sweep's points. Where it has a guide, a table of its own: the mesh of each point goes along
+    at the mean velocity of the guide's ring."""
+    table = os.path.join(HERE, sweep.points + ".csv")
+    if not sweep.guide:
+        return table
+    with open(table, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file, skipinitialspace=True))
+    for row, name in zip(rows, points(sweep.points)):
+        with open(os.path.join(out, sweep.guide, name, "solid.csv"), encoding="utf-8") as file:
+            way = [(float(at["t"]), float(at["x"])) for at in csv.DictReader(file)]
+        row["flow_frame_velocity"] = f"{(way[-1][1] - way[0][1]) / (way[-1][0] - way[0][0]):.4f}"
+        row["name"] = name
+    path = os.path.join(out, sweep.name + "-points.csv")
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+    return path
+
+
+def tell_strayed(sweep, out):
+    """Names the points whose ring left the part of the pipe that is fine."""
+    for point in points(sweep.points):
+        folder = os.path.join(out, sweep.name, point)
+        if not os.path.exists(os.path.join(folder, "solid.csv")):
+            continue
+        with open(os.path.join(folder, "run.yaml"), encoding="utf-8") as file:
+            size = sum(float(r) for r in re.findall(r'^solid_(?:major|minor)_radius: "(.*)"', file.read(), re.M))
+        with open(os.path.join(folder, "solid.csv"), encoding="utf-8") as file:
+            way = [float(at["x"]) for at in csv.DictReader(file)]
+        if min(way) < size or max(way) > sweep.parameters["fine"] - size:
+            print(f"WARNING: {sweep.name}/{point}: the ring goes from x = {min(way):.2f} to {max(way):.2f}, out of the "
+                  f"fine part from 0 to {sweep.parameters['fine']:g}", flush=True)
 
 
 def make_mesh(sweep, folder):
@@ -89,11 +143,19 @@ def run(sweep, arguments):
         driver = [os.path.join(arguments.drivers, "fsi-mpiexec"), "-n", str(arguments.n)] + driver
     mesh = make_mesh(sweep, os.path.join(arguments.o, "meshes"))
     print(f"== {sweep.part}: {sweep.name}", flush=True)
-    return subprocess.run([os.path.join(HERE, "..", "sweep", "run"), "-j", str(arguments.j),
+    try:
+        table = make_table(sweep, arguments.o)
+    except (FileNotFoundError, IndexError):
+        print(f"{sweep.name} is left out: there is no run in {sweep.guide} yet for each of its points")
+        return 1
+    code = subprocess.run([os.path.join(HERE, "..", "sweep", "run"), "-j", str(arguments.j),
                            os.path.join(HERE, sweep.case + ".yaml"),
-                           os.path.join(HERE, sweep.points + ".csv"),
-                           os.path.join(arguments.o, sweep.name), "--", *driver, "-mesh", mesh],
+                           table,
+                           os.path.join(arguments.o, sweep.name), "--", *driver, "-mesh", mesh, *sweep.options],
                           check=False).returncode
+    if sweep.guide:
+        tell_strayed(sweep, arguments.o)
+    return code
 
 
 def read_arguments(words):

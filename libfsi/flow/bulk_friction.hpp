@@ -10,7 +10,7 @@ namespace fsi::flow {
 
 /// The term in kappa_w that q of a projection adds to the pressure, if a step is long for the
 /// viscous time of a vessel. The increment rho / dt q accelerates the fluid, and -chi mu_c div u*
-/// balances the friction in short waves (`add_viscous_pressure`). The friction of a flow along a
+/// balances the friction in short waves (`ViscousPressure`). The friction of a flow along a
 /// vessel, which has no divergence, needs
 ///   p += kappa_w q,   kappa_w = 0.9 mu / max y,   -Lap y = 1,   y = 0 where the velocity is given.
 /// Consider an error of p whose flow decays at the rate Lambda. A step leaves the part

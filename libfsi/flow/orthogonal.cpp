@@ -14,12 +14,7 @@ namespace {
 
 /// out_c = -sum_f phi_f of owned cells.
 void set_inflow(std::vector<Real>& out, const FaceField<Real>& phi, const Mesh& mesh) {
-  std::ranges::fill(out, 0);
-  for (Index f = 0; f < mesh.n_faces; ++f) {
-    const Index P = mesh.owner[f];
-    if (P < mesh.n_owned) out[P] -= phi[f];
-    if (f < mesh.n_internal && mesh.neighbour[f] < mesh.n_owned) out[mesh.neighbour[f]] += phi[f];
-  }
+  for (Index c = 0; c < mesh.n_owned; ++c) out[c] = -net_outflow(phi, mesh, c);
 }
 
 /// Sums over the cells of all ranks of a b and of a a.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::flow {
 namespace {
@@ -146,18 +146,23 @@ void Projection::balance_boundary(FaceField<Real>& phi) const {
     if (adjustable_[f - mesh_.n_internal] != 0) phi[f] -= excess * norm(mesh_.Sf[f]);
 }
 
-// b = -sum_f (phi_f - k . (grad q)_f), at openings less g q_b; k and g times rho_0 / rho_f
+// b = -sum_f phi_f, at openings + g q_b; g times rho_0 / rho_f
 void Projection::set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b) {
-  std::fill(b_.begin(), b_.end(), 0.0);
-  for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Index P = mesh_.owner[f], i = weights_.place[f];
+  for (Index c = 0; c < mesh_.n_owned; ++c) b_[c] = -net_outflow(phi, mesh_, c);
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (const Index f = mesh_.n_internal + b; open_face_[b] != 0)
+      b_[mesh_.owner[f]] += mobility(f) * weights_.g[f] * q_b[b];
+}
+
+// b += sum_f k . (grad q)_f, outward; k times rho_0 / rho_f
+void Projection::add_oblique_outflow() {
+  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
+    const Index f = weights_.irregular[i], P = mesh_.owner[f];
     const bool internal = f < mesh_.n_internal;
-    const bool open = !internal && open_face_[f - mesh_.n_internal] != 0;
-    Real flux = phi[f];
-    if (i >= 0 && (internal || open)) flux -= mobility(f) * dot(grad_f_[i], weights_.k[f]);
-    if (open) flux -= mobility(f) * weights_.g[f] * q_b[f - mesh_.n_internal];
-    if (P < mesh_.n_owned) b_[P] -= flux;
-    if (internal && mesh_.neighbour[f] < mesh_.n_owned) b_[mesh_.neighbour[f]] += flux;
+    if (!internal && open_face_[f - mesh_.n_internal] == 0) continue;
+    const Real oblique = mobility(f) * dot(grad_f_[i], weights_.k[f]);
+    if (P < mesh_.n_owned) b_[P] += oblique;
+    if (internal && mesh_.neighbour[f] < mesh_.n_owned) b_[mesh_.neighbour[f]] -= oblique;
   }
 }
 
@@ -203,6 +208,7 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   SolveResult total;
   for (int corrector = 0; corrector <= correctors_; ++corrector) {
     set_outflow(phi, q_b);
+    if (corrector > 0) add_oblique_outflow();
     const SolveResult solve =
         system_.solve(q, b_, absolute, corrector < correctors_ ? loosened : last);
     total.iterations += solve.iterations;
@@ -258,41 +264,13 @@ void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, cons
 }
 
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh) {
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    Real sum = 0;
-    for (const Index f : mesh.cell_faces[c]) sum += mesh.owner[f] == c ? phi[f] : -phi[f];
-    div[c] = sum / mesh.V[c];
-  }
-}
-
-// u* = u^(n+1) + grad q obeys the predictor, u^(n+1) does not. The difference is theta mu Lap grad
-// q = grad(theta mu Lap q), with Lap q = div u*      [Brown01], [Timmermans96].
-//
-// An error of p that differs from all its neighbours changes the predicted flux. Through it the
-// term chi mu_c div u* takes up to chi K times the error off p, K = sum_f g |d|^2 / (2 V). K is dim
-// on quads and hexes, and chi K must be less than 2.
-void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, const FaceField<Real>& theta,
-                          const FaceWeights& weights, const Mesh& mesh) {
-  constexpr Real chi_max = 0.5, answer_max = 1.5;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    Real mu_c = std::numeric_limits<Real>::max(), K = 0;
-    for (const Index f : mesh.cell_faces[c]) {
-      mu_c = std::min(mu_c, theta[f] * mu[f] + kappa[f]);
-      K += weights.g[f] * norm2(mesh.d[f]) / (2 * mesh.V[c]);
-    }
-    p[c] -= std::min(chi_max, answer_max / K) * mu_c * div[c];
-  }
-  mesh.halo.update(p);
+  for (Index c = 0; c < mesh.n_owned; ++c) div[c] = net_outflow(phi, mesh, c) / mesh.V[c];
 }
 
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh) {
   Real worst = 0;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    Real sum = 0;
-    for (const Index f : mesh.cell_faces[c]) sum += mesh.owner[f] == c ? phi[f] : -phi[f];
-    worst = std::max(worst, std::abs(sum) / mesh.V[c]);
-  }
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    worst = std::max(worst, std::abs(net_outflow(phi, mesh, c)) / mesh.V[c]);
   return global_max(worst);
 }
 

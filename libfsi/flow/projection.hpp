@@ -108,6 +108,8 @@ class Projection {
                             const BoundaryField<Real>& q_b, Real absolute);
   void set_face_gradient(const CellField<Real>& q, const BoundaryField<Real>& q_b);
   void set_outflow(const FaceField<Real>& phi, const BoundaryField<Real>& q_b);
+  /// To the right-hand side: k . (grad q)_f of the last `set_face_gradient`.
+  void add_oblique_outflow();
   void subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
                          const BoundaryField<Real>& q_b) const;
   void balance_boundary(FaceField<Real>& phi) const;
@@ -145,13 +147,6 @@ void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, cons
 
 /// div_c = sum_f phi_f / V of owned cells.
 void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& mesh);
-
-/// p_c -= chi mu_c div u*, mu_c the least theta_f mu + kappa of the cell's faces: the effect of the
-/// implicit viscous term on the correction grad q. chi = 1/2, less in cells of poor shape. div: of
-/// the predicted flux, owned. p: owned and halo.
-void add_viscous_pressure(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,
-                          const FaceField<Real>& kappa, const FaceField<Real>& theta,
-                          const FaceWeights& weights, const Mesh& mesh);
 
 /// max over owned cells of all ranks of |sum_f phi_f| / V.
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);

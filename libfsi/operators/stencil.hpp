@@ -53,6 +53,13 @@ inline Real cell_size(const Mesh& mesh, Index c) {
   return mesh.dim == 2 ? std::sqrt(mesh.V[c]) : std::cbrt(mesh.V[c]);
 }
 
+/// sum_f phi_f of a cell, outward.
+inline Real net_outflow(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
+  Real sum = 0;
+  for (const Index f : mesh.cell_faces[c]) sum += mesh.owner[f] == c ? phi[f] : -phi[f];
+  return sum;
+}
+
 /// (1 / 2V) sum_f |phi_f| of a cell, its Courant number over the time step.
 inline Real courant_rate(const FaceField<Real>& phi, const Mesh& mesh, Index c) {
   Real sum = 0;

@@ -78,6 +78,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors),
       loads_(mesh, projection_, openings_, physics.rho),
+      viscous_pressure_(mesh, weights_),
       bulk_friction_(mesh, projection_, openings_),
       wall_parabola_(mesh, conditions_, u_stencil_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
@@ -277,8 +278,7 @@ void Solver::project(State& state, Real dt) {
   }
   bulk_friction_.add(state.p, q_, friction(), dt / physics_.rho);
   if (!projection_.orthogonal())
-    flow::add_viscous_pressure(state.p, divergence_, mu_, kappa_, momentum_.theta_taken(), weights_,
-                               mesh_);
+    viscous_pressure_.add(state.p, divergence_, mu_, kappa_, momentum_.theta_taken());
   openings_.set_pressure(p_b_, state.u);  // of this step, as p is: the balance of energy takes both
   report_.pressure_iterations = solve.iterations;
   report_.pressure_residual = solve.residual;

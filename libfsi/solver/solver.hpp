@@ -22,6 +22,7 @@
 #include "libfsi/flow/momentum.hpp"
 #include "libfsi/flow/openings.hpp"
 #include "libfsi/flow/projection.hpp"
+#include "libfsi/flow/viscous_pressure.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
@@ -307,6 +308,7 @@ class Solver {
   flow::Openings openings_;
   flow::Projection projection_;
   flow::Loads loads_;
+  flow::ViscousPressure viscous_pressure_;
   flow::BulkFriction bulk_friction_;
   Real friction_ = 0;  // of flow along the walls, per viscosity; 0: none is needed
   flow::WallParabola wall_parabola_;

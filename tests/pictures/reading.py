@@ -11,7 +11,7 @@ from made_up import box, check, write_run
 
 source, folder = made_up.arguments()
 import fsi  # noqa: E402
-from fsi import labels, plots  # noqa: E402
+from fsi import labels, mirror, plots  # noqa: E402
 
 
 def check_run():
@@ -43,6 +43,57 @@ def check_run():
     check(fsi.table(os.path.join(folder, "none.csv")) == {} and fsi.series(folder) == [], "nothing there: empty")
 
 
+def check_mirror():
+    """Half a run and its image beyond a plane of symmetry, cells of each kind."""
+    for kind in ("hex", "tet", "prism", "pyramid", "quad", "triangle"):
+        flat = kind in ("quad", "triangle")
+        sides, counts, axis, level = ((2, 1), (4, 2), "y", 1) if flat else ((2, 1, 1), (4, 2, 2), "z", 1)
+        place, arrays = os.path.join(folder, "half_" + kind), box(sides, counts, kind)
+        count = len(arrays[3])
+        values = {"u": np.tile([1.0, 2, 3], (count, 1)), "B": np.tile([1.0, 2, 3, 4, 5, 6], (count, 1)),
+                  "p": np.arange(count, dtype=float)}
+        write_run(place, arrays, [0.0], lambda _, values=values: values, {}, {
+            "solid": {"t": [0, 1], "volume": [1, 1], "min_eig_B": [0.5, 0.5], axis: [0.7, 0.7], "u" + axis: [0, 1]},
+            "flow": {"t": [1], "flow_rate_left": [3], "pressure_drop": [5]}})
+        run = fsi.Mirrored(place, axis, level)
+        mesh, snapshot, number = run.snapshot(0).mesh, run.snapshot(0), "xyz".index(axis)
+        check(np.isclose(mesh.volumes.sum(), 4) and mesh.high[number] == 2, f"{kind}: twice the volume")
+        linear = np.array([1.0, 2, 0 if flat else 3])
+        check(np.allclose(mesh.gradients((mesh.points @ linear)[:, None])[:, 0], linear),
+              f"{kind}: faces of the image look outward")
+        check(np.isclose(sum(mesh.edges()[count:]), sum(mesh.edges()[:count])) and
+              len(mesh.points) == 2 * len(arrays[0]) - (arrays[0][:, number] == level).sum(),
+              f"{kind}: the points on the plane are shared")
+        there = snapshot["u"][-1], snapshot["B"][-1], snapshot["p"][-1]
+        turned = ([1, -2, 3], [1, 2, 3, -4, -5, 6]) if flat else ([1, 2, -3], [1, 2, 3, 4, -5, -6])
+        check(np.array_equal(there[0], turned[0]) and np.array_equal(there[1], turned[1]) and
+              there[2] == count - 1, f"{kind}: velocity, strain and pressure of the image")
+    solid, flow = run.tables["solid"], run.tables["flow"]
+    check(solid["volume"][0] == 2 and solid["min_eig_B"][0] == 0.5 and (solid[axis] == 1).all() and
+          (solid["u" + axis] == 0).all() and flow["flow_rate_left"][0] == 6 and flow["pressure_drop"][0] == 5,
+          "tables of both sides")
+    told = {name for name, unit in units_told().items() if unit in ("volume", "area", "energy", "energy / time",
+                                                                    "volume / time")}
+    check(told == {*mirror.ADDED, "flow_rate", "flow_rate_NAME"}, f"all columns that add up: {told}")
+    write_run(os.path.join(folder, "joined"), box((2, 1, 1), (4, 2, 2)), [0.0], lambda _: {"p": np.zeros(16)},
+              {"mesh_periodic": "inlet,outlet"})
+    for place, axis, level, words in ((place, axis, 0.5, "no end of the mesh"), (place, "z", 0, "flat along z"),
+                                      (os.path.join(folder, "joined"), "x", 0, "periodic along x")):
+        try:
+            fsi.Mirrored(place, axis, level)
+            check(False, f"refused: {words}")
+        except ValueError as error:
+            check(words in str(error), f"refused: {error}")
+
+
+def units_told():
+    """The unit of each column in doc/reference/files.md."""
+    with open(os.path.join(source, "doc", "reference", "files.md"), encoding="utf-8") as file:
+        rows = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in file
+                if line.startswith("| `")]
+    return {name: row[2] for row in rows if len(row) == 6 for name in re.findall(r"`([^`]+)`", row[0])}
+
+
 def check_stretch():
     mesh = fsi.Mesh(*box((1, 1, 1), (2, 2, 2)))
     stretch = np.tile([1.21, 1, 1 / 1.21, 0, 0, 0], (8, 1))
@@ -57,10 +108,7 @@ def check_stretch():
 
 def check_units():
     """Each panel has the unit that the reference gives its columns."""
-    with open(os.path.join(source, "doc", "reference", "files.md"), encoding="utf-8") as file:
-        rows = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in file
-                if line.startswith("| `")]
-    told = {name: row[2] for row in rows if len(row) == 6 for name in re.findall(r"`([^`]+)`", row[0])}
+    told = units_told()
     for panel in plots.PANELS:
         for column in panel.columns:
             name = column.replace("*", "NAME")
@@ -85,6 +133,7 @@ def check_units():
 
 
 check_run()
+check_mirror()
 check_stretch()
 check_units()
 sys.exit(1 if made_up.failures else 0)
