@@ -120,7 +120,7 @@ def passing_discs():
             ax.loglog(n, away, mark + dash, color=colour, label=label,
                       markerfacecolor=colour if dash == "-" else "white")
     ticks(ax.xaxis, [6, 10, 20])
-    ticks(ax.yaxis, [0.005, 0.01, 0.02, 0.03])
+    ticks(ax.yaxis, [0.005, 0.01, 0.02, 0.04])
     ax.set(xlabel="cells a radius", ylabel="distance from the rigid disc, radii")
     legend(figure, ax, 2)
     return figure

@@ -1,7 +1,10 @@
-// Every unit test program: PETSc (and MPI) around GoogleTest; a failure on any rank fails the run.
+// Every unit test program: PETSc (and MPI) around GoogleTest. A failure on any rank fails the run,
+// and so does a filter that no test matches.
 
 #include <gtest/gtest.h>
 #include <petscsys.h>
+
+#include <cstdio>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -13,6 +16,9 @@ int main(int argc, char** argv) {
     delete listeners.Release(listeners.default_result_printer());
   }
   const bool passed = fsi::all_of_ranks(RUN_ALL_TESTS() == 0);
+  const bool listed = ::testing::GTEST_FLAG(list_tests);
+  const bool any = listed || ::testing::UnitTest::GetInstance()->test_to_run_count() > 0;
+  if (!any && fsi::rank() == 0) std::fprintf(stderr, "no test matches the filter\n");
   const int finalized = PetscFinalize();
-  return passed && finalized == 0 ? 0 : 1;
+  return passed && any && finalized == 0 ? 0 : 1;
 }

@@ -49,9 +49,9 @@ void expect_error(const std::string& name, const std::string& flow, Real publish
   EXPECT_LE(outside, 1e-12);
 }
 
-TEST(PrescribedAdvection, Quads64) { expect_error("quads64", "vortex", 8.16e-3); }
-TEST(PrescribedAdvection, Quads128) { expect_error("quads128", "vortex", 2.33e-3); }
-TEST(PrescribedAdvection, Triangles16k) { expect_error("triangles80", "vortex", 3.58e-3); }
+TEST(Carried, Quads64) { expect_error("quads64", "vortex", 8.16e-3); }
+TEST(Carried, Quads128) { expect_error("quads128", "vortex", 2.33e-3); }
+TEST(Carried, Triangles16k) { expect_error("triangles80", "vortex", 3.58e-3); }
 
 TEST(CarriedFine, Quads256) { expect_error("quads256", "vortex", 5.37e-4); }
 TEST(CarriedFine, Triangles65k) { expect_error("triangles162", "vortex", 7.51e-4); }
