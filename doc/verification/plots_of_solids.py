@@ -100,10 +100,9 @@ def paper_throat():
     for column, throat, shift in ((2, 6, -0.27), (3, 3, 0), (4, 1, 0.27)):
         ax.bar(place + shift, [first(row[column]) for row in fine], 0.25,
                color=style.LINES[column - 2], label=f"throat {throat}, 24 cells")
-    for cells, mark in (("16", "k_"), ("32", "k+")):
-        others = [row for row in table if row[1] == cells]
-        ax.plot([of_body[row[0]] - 0.27 for row in others], [first(row[2]) for row in others], mark,
-                markersize=11, label=f"throat 6, {cells} cells")
+    finer = [row for row in table if row[1] == "32"]
+    ax.plot([of_body[row[0]] - 0.27 for row in finer], [first(row[2]) for row in finer], "k+",
+            markersize=11, label="throat 6, 32 cells")
     ax.set_xticks(place, [row[0].replace(" of", "\nof") for row in fine], fontsize=8)
     ax.set_ylabel("flow kept back, at most, %")
     ax.grid(axis="x")

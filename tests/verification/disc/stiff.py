@@ -5,7 +5,7 @@
 
 Meshes of NAMES, separated by commas, 32 cells a side, G from 100 to 10^6 (the fluid's rho U^2 is 1),
 Courant number 0.5. At the last common time the kinetic energies on a mesh are alike within 1 % on
-quads (measured: 0.2) and 5 % on triangles (4.6). The disc strains by less than 1e-2: B differs from I
+quads (measured: 0.2) and 5 % on triangles (3.1). The disc strains by less than 1e-2: B differs from I
 by no more. A strain that is not bounded by the work of the force makes more of it.
 """
 import csv
