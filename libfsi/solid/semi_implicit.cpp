@@ -76,7 +76,6 @@ void SemiImplicitElasticity::clear(FaceField<Real>& kappa, FaceField<Real>& stif
 void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stiffness,
                                    CellField<Vec3>& force, const ElasticTerms& solid,
                                    const FaceWeights& weights, const Band& band) {
-  constexpr Real explicit_part = 1.5;  // of kappa + mu_rho, for stability
   const CellField<Real>& lambda = solid.lambda;
   last_faces_ = band.faces();
   for (const Index f : band.faces()) {
@@ -84,37 +83,54 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
     Real l = lambda[P];
     if (f < mesh_.n_internal) l += weights.lambda[f] * (lambda[mesh_.neighbour[f]] - l);
     l *= solid.alpha[f];
-    const Real waves = solid.dt * solid.G * l, k = implicit_fraction * waves;
+    const Real waves = solid.dt * solid.G * l;
     stiffness[f] += waves;
-    kappa[f] += k;
-    if (f >= mesh_.n_internal || l <= 0) continue;
-    const Index N = mesh_.neighbour[f];
-    if (lambda[P] == 0 || lambda[N] == 0) continue;  // beyond the band L is not set
-    const Real d = norm(mesh_.d[f]);
-    Real e = d * std::sqrt(solid.rho * solid.G * l);
-    const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
-    // less alpha_f mu_s, since the compact viscous term of the solid damps too
-    const bool in_zone = zone_.has(P) || zone_.has(N), one_sided = in_zone && solid.one_sided;
-    if (in_zone && !one_sided) {
-      e *= 2;
-      kappa[f] += e;
-    } else {
-      if (!in_zone && solid.normal)
-        e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
-      e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
-      kappa[f] += std::max(e / explicit_part - k - inertia, Real{0});
+    Real k = implicit_fraction * waves;
+    // Beyond the band L is not set.
+    if (f < mesh_.n_internal && l > 0 && lambda[P] != 0 && lambda[mesh_.neighbour[f]] != 0) {
+      Vec3 flux = damping(k, solid, weights, f, l);
+      flux += (k * solid.dt * weights.g[f]) * change_of_rise(solid, f);
+      const Index N = mesh_.neighbour[f];
+      force[P] += (1 / mesh_.V[P]) * flux;
+      force[N] -= (1 / mesh_.V[N]) * flux;
     }
-    // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N
-    // - u_P - W . d is negative, W the spin of L_f.
-    const Real w = part_of_N(solid, weights, mesh_, f);
-    const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
-    const Vec3 rise = solid.u[N] - solid.u[P];
-    const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
-    if (one_sided && dot(flux, rise - dot(spin(L_f), mesh_.d[f])) < 0) continue;
-    force[P] += (1 / mesh_.V[P]) * flux;
-    force[N] -= (1 / mesh_.V[N]) * flux;
+    kappa[f] += k;
   }
   mesh_.halo.update(force);
+}
+
+// u_f . grad (u_N - u_P), u_f = (u_P + u_N) / 2
+Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) const {
+  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  return dot(solid.L[N] + -1.0 * solid.L[P], 0.5 * (solid.u[P] + solid.u[N]));
+}
+
+Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights,
+                                     Index f, Real l) const {
+  constexpr Real explicit_part = 1.5;  // of kappa + mu_rho, for stability
+  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  const Real d = norm(mesh_.d[f]);
+  Real e = d * std::sqrt(solid.rho * solid.G * l);
+  const Real inertia = inertia_[f] * solid.rho_least * d * d / solid.dt;
+  // less alpha_f mu_s, since the compact viscous term of the solid damps too
+  const bool in_zone = zone_.has(P) || zone_.has(N), one_sided = in_zone && solid.one_sided;
+  if (in_zone && !one_sided) {
+    e *= 2;
+    k += e;
+  } else {
+    if (!in_zone && solid.normal)
+      e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
+    e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
+    k += std::max(e / explicit_part - k - inertia, Real{0});
+  }
+  // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N
+  // - u_P - W . d is negative, W the spin of L_f.
+  const Real w = part_of_N(solid, weights, mesh_, f);
+  const Tensor L_f = (1 - w) * solid.L[P] + w * solid.L[N];
+  const Vec3 rise = solid.u[N] - solid.u[P];
+  const Vec3 flux = e * weights.g[f] * (rise - dot(L_f, mesh_.d[f]));
+  if (one_sided && dot(flux, rise - dot(spin(L_f), mesh_.d[f])) < 0) return {};
+  return flux;
 }
 
 }  // namespace fsi::solid

@@ -46,14 +46,17 @@ struct ElasticTerms {
 
 /// Two terms that keep velocity and strain stable and leave a resolved solution unchanged:
 ///
-///   div(kappa grad (u* - u^n)),   kappa = 0.4 dt G alpha_f lambda_B
+///   div(kappa (grad u* - grad u^n + dt u^n . grad (grad u^n))),
+///   kappa = 0.4 dt G alpha_f lambda_B
 ///
 /// It stands for the change of the elastic stress over the step, which by div u = 0 is div(dt G B .
 /// grad u) in the leapfrog of velocity and strain. With a share C of it the leapfrog needs
 /// w^2 dt^2 / (1 + C w^2 dt^2) <= 4, which C >= 1/4 makes true for any dt. The fastest mode turns
 /// by arccos(1 - 1 / (2 C)) in a step. With C = 0.3 that is 132 degrees, and in a thin body the
 /// waves persist that the surface excites as it crosses cells. With C = 0.4 it is 104 degrees. The
-/// term vanishes with the change of u over a step.
+/// term vanishes with the change of grad u along the path of a particle, so that a body which
+/// passes through the mesh as it is has none of it. With the change at a fixed place a ring turns
+/// too far: at Courant number 0.5 its angle is off by twice as much (doc/verification/torus.md).
 ///
 ///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
@@ -96,11 +99,18 @@ class SemiImplicitElasticity {
 
   /// Collective. kappa_f += the implicit coefficient, with what e needs. stiffness_f += dt G
   /// alpha_f lambda_B, with lambda_B linear between the cells. Nothing is added outside the band.
-  /// force += the explicit term.
+  /// force += the explicit term and the explicit part of the first one, on owned cells and halo.
   void apply(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
              const ElasticTerms& solid, const FaceWeights& weights, const Band& band);
 
  private:
+  /// The flux of the explicit term through face f, l = alpha_f lambda_B. Raises k, kappa of the
+  /// face, to what the flux needs.
+  Vec3 damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights, Index f,
+               Real l) const;
+  /// How fast the rise of u from the owner of face f to the neighbour changes along the stream.
+  Vec3 change_of_rise(const ElasticTerms& solid, Index f) const;
+
   const Mesh& mesh_;
   const SimplexZone& zone_;
   std::vector<Real> inertia_;  // [n_internal] mu_rho dt / (rho |d|^2)

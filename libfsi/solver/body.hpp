@@ -200,6 +200,7 @@ struct Body {
   Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
+  int interface_parts = 1;        ///< into which the last step was divided for the interface
   SymmetryFaces mirror;           ///< planes of symmetry
   std::vector<char> specks;       ///< [n_owned] scratch
   Real volume_out = 0;            ///< volume that left the mesh or was taken out

@@ -70,6 +70,7 @@ void advance_interface(Body& body, const FlowAround& flow, Real t) {
   constexpr Real courant = 0.2, parts_max = 10;
   const Real longest = vof::interface_dt(body.alpha, flow.phi, courant, body.mesh);
   const int parts = static_cast<int>(std::clamp(std::ceil(body.dt / longest), Real{1}, parts_max));
+  body.interface_parts = parts;
   body.advected = {};
   for (int i = 0; i < parts; ++i) {
     body.advected.add(vof::advect(body.alpha, body.interface, flow.phi, flow.u, body.dt / parts,
@@ -145,7 +146,11 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
                                      .one_sided = one_sided_of(body),
                                      .wave_speed = body.wave_speed(),
                                      .recovery = body.G / body.mu};
-  map.transport(body.fraction_of_memory(), snapshot, body.dt, body.grad);
+  // The memory holds the interface, so it goes in parts with it. More than two parts change little
+  // (doc/notebook/2026-11-27-along-the-path.md).
+  const int parts = std::min(body.interface_parts, 2);
+  for (int i = 0; i < parts; ++i)
+    map.transport(body.fraction_of_memory(), snapshot, body.dt / parts, body.grad);
 }
 
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
