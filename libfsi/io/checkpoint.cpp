@@ -66,6 +66,26 @@ std::vector<std::int64_t> numbers_in(const std::string& directory) {
   return numbers;
 }
 
+std::string path_in(const std::string& directory, std::int64_t number) {
+  char name[48];
+  std::snprintf(name, sizeof name, "/checkpoint_%04lld.h5", static_cast<long long>(number));
+  return directory + name;
+}
+
+/// The newest checkpoint of a directory that is sound; "": none. Tells damaged(file, reason) of
+/// those that are not, newest first.
+template <class Damaged>
+std::string newest_sound(const std::string& directory, const Damaged& damaged) {
+  std::vector<std::int64_t> numbers = numbers_in(directory);
+  for (; !numbers.empty(); numbers.pop_back()) {
+    std::string candidate = path_in(directory, numbers.back());
+    const std::string reason = damage(candidate);
+    if (reason.empty()) return candidate;
+    damaged(candidate, reason);
+  }
+  return "";
+}
+
 void warn(const std::string& sentence) {
   if (rank() == 0) std::fprintf(stderr, "fsi: warning: %s\n", sentence.c_str());
 }
@@ -103,6 +123,26 @@ void share_scalars(const Snapshot& snapshot) {
 
 }  // namespace
 
+std::vector<Real> solid_fractions(const std::string& directory,
+                                  const std::vector<std::string>& solids, Index first,
+                                  Index count) {
+  const auto skip = [](const std::string&, const std::string&) {};
+  const std::string file = broadcast(rank() == 0 ? newest_sound(directory, skip) : "");
+  const auto total = static_cast<std::uint64_t>(global_sum(static_cast<GlobalIndex>(count)));
+  std::vector<Real> sum(static_cast<std::size_t>(count), 0), one(sum);
+  bool good = !file.empty();
+  if (good) {
+    const Hdf5File fields(file);
+    good = fields.ok();
+    for (const std::string& solid : solids) {
+      const std::string name = "/fields/" + (solid.empty() ? "" : solid + "_") + "alpha";
+      good = good && fields.dataset(name, total, static_cast<std::uint64_t>(first), one, 1);
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += one[c];
+    }
+  }
+  return all_of_ranks(good) ? sum : std::vector<Real>{};
+}
+
 Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)
     : directory_(std::move(directory)),
       mesh_(mesh),
@@ -122,11 +162,7 @@ const Layout& Checkpoint::layout(Location on) const {
   return on == Location::cells ? cells_ : on == Location::faces ? faces_ : boundary_;
 }
 
-std::string Checkpoint::path(std::int64_t number) const {
-  char name[48];
-  std::snprintf(name, sizeof name, "/checkpoint_%04lld.h5", static_cast<long long>(number));
-  return directory_ + name;
-}
+std::string Checkpoint::path(std::int64_t number) const { return path_in(directory_, number); }
 
 void Checkpoint::keep_two() const {
   const std::vector<std::int64_t> numbers = numbers_in(directory_);
@@ -240,22 +276,13 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
 
 void Checkpoint::read(const Snapshot& snapshot) {
   std::string sound, damaged;
-  if (rank() == 0) {
-    std::vector<std::int64_t> numbers = numbers_in(directory_);
-    for (; sound.empty() && !numbers.empty(); numbers.pop_back()) {
-      const std::string candidate = path(numbers.back());
-      const std::string reason = damage(candidate);
-      if (reason.empty()) {
-        sound = candidate;
-        continue;
-      }
-      damaged += (damaged.empty() ? "" : ", ") + candidate;
+  if (rank() == 0)
+    sound = newest_sound(directory_, [&](const std::string& file, const std::string& reason) {
+      damaged += (damaged.empty() ? "" : ", ") + file;
       std::error_code code;
-      if (std::ifstream(candidate))
-        std::filesystem::rename(candidate, candidate + ".damaged", code);
-      warn("checkpoint \"" + candidate + "\" is damaged (" + reason + "); passed over");
-    }
-  }
+      if (std::ifstream(file)) std::filesystem::rename(file, file + ".damaged", code);
+      warn("checkpoint \"" + file + "\" is damaged (" + reason + "); passed over");
+    });
   sound = broadcast(sound);
   damaged = broadcast(damaged);
   if (sound.empty() && !damaged.empty())

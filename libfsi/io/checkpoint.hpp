@@ -55,6 +55,12 @@ class Snapshot {
   std::vector<std::pair<std::string, Scalar>> scalars_;
 };
 
+/// Collective. How much of a cell the solids fill in the newest sound checkpoint of a directory,
+/// one value for each of `count` cells from number `first` on (Mesh::global_id). solids: their
+/// names. Empty on all ranks where no checkpoint has these solids in these cells.
+std::vector<Real> solid_fractions(const std::string& directory,
+                                  const std::vector<std::string>& solids, Index first, Index count);
+
 /// The checkpoints checkpoint_NNNN.h5 of an output directory, of which the two newest are kept. A
 /// file is whole or not there: HDF5, and behind it the length and CRC-64 of all before. The order
 /// of values does not depend on the division of the mesh; every rank writes and reads its stretch.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "libfsi/mesh/cell_list.hpp"
 
@@ -10,12 +11,16 @@ namespace fsi {
 
 /// Work of the cell at this centre beyond that of a fluid cell; 0 where there is none.
 using CellLoad = std::function<Real(const Vec3&)>;
+/// Collective. The same for a stretch of cells, by their number in the mesh as read: from the
+/// first one on, as many as the second argument says.
+using CellLoads = std::function<std::vector<Real>(Index, Index)>;
 
 /// How the cells are divided.
 struct Division {
   std::string partitioner = "metis";  ///< or ptscotch, simple
   Vec3 along = {};                    ///< direction that metis avoids to cut across; zero: none
   CellLoad load;                      ///< balanced by metis beside the cells; empty: none
+  CellLoads loads;                    ///< in place of `load`; empty: `load` counts
 };
 
 /// Collective. From the mesh as it is read to its division. `slab`: this rank's stretch of the

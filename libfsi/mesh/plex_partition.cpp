@@ -82,11 +82,27 @@ std::vector<Index> sought(const CellList& here, const std::vector<Index>& halves
   return result;
 }
 
+/// Collective. The loads of this rank's cells; empty: none.
+std::vector<std::int32_t> loads_of(const CellList& here, const Stretches& cells,
+                                   const Division& how) {
+  std::vector<std::int32_t> units;
+  if (how.loads) {
+    for (const Real load : how.loads(cells.first(), here.n_cells())) {
+      units.push_back(load_units(load));
+    }
+  } else if (how.load) {
+    for (Index c = 0; c < here.n_cells(); ++c) {
+      units.push_back(load_units(how.load(middle(here, c))));
+    }
+  }
+  return units;
+}
+
 /// Collective. The graph of this rank's cells; columns where `along` is not zero, load where there
 /// is a function of it. Neighbours stand in the order of the faces: the same whoever holds the
 /// cells.
-Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, const Vec3& along,
-               const CellLoad& load) {
+Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices,
+               const Division& how) {
   const std::vector<Index> mate = match_faces(here);
   std::vector<Index> open;
   for (Index c = 0; c < here.n_cells(); ++c) {
@@ -104,9 +120,9 @@ Graph graph_of(const CellList& here, const Stretches& cells, Index n_vertices, c
       if (far >= 0) graph.neighbours.push_back(far);
     }
     graph.start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
-    if (load) graph.load.push_back(load_units(load(middle(here, c))));
   }
-  if (norm(along) > 0) graph.column = columns_of(here, along);
+  graph.load = loads_of(here, cells, how);
+  if (norm(how.along) > 0) graph.column = columns_of(here, how.along);
   return graph;
 }
 
@@ -180,7 +196,7 @@ Parts partition_by_petsc(Graph graph, const std::string& partitioner) {
 
 Parts partition_cells(const CellList& here, const Stretches& cells, Index n_vertices,
                       const Division& how) {
-  Graph graph = graph_of(here, cells, n_vertices, how.along, how.load);
+  Graph graph = graph_of(here, cells, n_vertices, how);
   if (how.partitioner != "metis") return partition_by_petsc(std::move(graph), how.partitioner);
   graph = gathered(graph);
   std::vector<std::int32_t> part;

@@ -36,7 +36,7 @@ auto within_memory(const std::string& file, const Work& work) {
 }  // namespace
 
 Mesh read_mesh(const MeshOptions& options) {
-  const Division how{options.partitioner, options.along, options.load};
+  const Division how{options.partitioner, options.along, options.load, options.loads};
   if (is_mesh_file(options.file))
     return build_mesh(distribute(read_mesh_tables(options.file, options.periodic), how));
   CellList whole;

@@ -19,6 +19,9 @@ struct MeshOptions {
   /// Work of the cell at this centre beyond that of a fluid cell, in any unit: metis gives every
   /// rank its share of it, and its share of the cells besides. Empty: none.
   std::function<Real(const Vec3&)> load = {};
+  /// Collective. The same by the number of a cell in the mesh as read (Mesh::global_id): of as many
+  /// cells as the second argument says, from the first one on. Empty: `load` counts.
+  std::function<std::vector<Real>(Index, Index)> loads = {};
 };
 
 /// Collective. Reads, checks, partitions and flattens the mesh. A gmsh file passes through rank 0;

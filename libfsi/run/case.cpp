@@ -10,6 +10,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/io/checkpoint.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/forewords.hpp"
 #include "libfsi/solid/strain.hpp"
@@ -152,6 +153,11 @@ OutputSetup read_output(Options& options, const std::string& driver) {
                     .min = 0});
   output.restart =
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
+  output.divide_anew = options.flag(
+      "restart_divide", false,
+      "with -restart: divide the mesh anew, so that the ranks share the solids where they are now");
+  require(output.restart || !output.divide_anew,
+          "option -restart_divide goes with -restart: a start divides the mesh by the solids");
   output.end_when_empty = options.flag(
       "end_when_empty", false,
       "end the run once all solids have left the mesh: no cell is half full, or less than "
@@ -199,16 +205,25 @@ std::map<std::string, std::string> lines(const std::string& text) {
   return items;
 }
 
-/// Collective. Cells with their centre in the solid: the most a rank holds over the mean; 0: none.
-Real solid_share(const Mesh& mesh, const std::vector<SolidSetup>& solids) {
-  const auto centres = std::span(mesh.C).first(static_cast<std::size_t>(mesh.n_owned));
-  const auto in_a_solid = [&](const Vec3& x) {
-    return std::ranges::any_of(solids, [&](const SolidSetup& s) { return s.solid.shape(x) < 0; });
+/// What a cell of solid costs beyond one of fluid, as MeshOptions have it. The cost of the solid is
+/// that of its cells and of those that its surface cuts.
+void set_loads(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
+               const OutputSetup& output) {
+  // A margin stands for the cells that the surface cuts, since their size is not known here.
+  constexpr Real margin = 0.1;
+  if (solids.empty()) return;
+  mesh.load = [solids](const Vec3& x) {
+    const auto holds = [&](const SolidSetup& s) { return s.solid.shape(x) < margin * s.thickness; };
+    return static_cast<Real>(std::ranges::count_if(solids, holds));
   };
-  const auto mine = std::ranges::count_if(centres, in_a_solid);
-  const GlobalIndex total = global_sum(static_cast<GlobalIndex>(mine));
-  const Real most = global_max(static_cast<Real>(mine));
-  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+  if (!output.divide_anew) return;
+  std::vector<std::string> names;
+  for (const SolidSetup& s : solids) names.push_back(s.solid.name);
+  mesh.loads = [names, directory = output.directory](Index first, Index count) {
+    std::vector<Real> loads = io::solid_fractions(directory, names, first, count);
+    for (Real& load : loads) load = load > 0 ? 1 : 0;
+    return loads;
+  };
 }
 
 /// Whether an option sets the solid's shape or place at the start.
@@ -227,18 +242,9 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.fluid = fluid(options, result.physics);
   result.flow = read_flow(options);
   result.solids = read_solids(options, result.physics);
-  // The cost of the solid is that of its cells and of those that its surface cuts. A margin stands
-  // for the latter, since their size is not known here.
-  constexpr Real margin = 0.1;
-  if (!result.solids.empty())
-    result.mesh.load = [solids = result.solids](const Vec3& x) {
-      const auto holds = [&](const SolidSetup& s) {
-        return s.solid.shape(x) < margin * s.thickness;
-      };
-      return static_cast<Real>(std::ranges::count_if(solids, holds));
-    };
   result.time = read_time(options);
   result.output = read_output(options, driver);
+  set_loads(result.mesh, result.solids, result.output);
   check_intervals(result.output, result.time.end);
   require(options.help() || !result.mesh.file.empty(),
           "option -mesh is missing: the gmsh file of the geometry");
@@ -297,12 +303,10 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh, s), mesh));
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
   const Real force = largest_force(setup.flow.body_force, mesh, setup.time.end);
-  const Real share = ranks() > 1 && !setup.solids.empty() ? solid_share(mesh, setup.solids) : 0;
   if (rank() != 0) return;
   std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());
   const std::string past = warning(setup.mesh.file, findings(figures));
   if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
-  if (share > 0) std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
   if (setup.flow.body_force)

@@ -54,7 +54,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     samples_.resume(solver_.state().t, "none");
     solver_.report().rejected = 0, solver_.report().rejections.clear();
   }
-  tell_of_images(solver_);
+  tell_of_solids(solver_);
   first_step_ = row_step_ = solver_.state().step;
   forecast_ = Forecast(solver_.state().t);
   for (const Column& column : columns_)

@@ -29,6 +29,16 @@ std::string table_of(const Body& body) {
   return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
 }
 
+/// Collective. Cells at least half full of solid: the most a rank has over the mean; 0: none.
+Real solid_share(const Solver& solver) {
+  GlobalIndex mine = 0;
+  for (const Body& body : solver.bodies())
+    for (Index c = 0; c < body.mesh.n_owned; ++c) mine += body.alpha[c] >= 0.5 ? 1 : 0;
+  const GlobalIndex total = global_sum(mine);
+  const Real most = global_max(static_cast<Real>(mine));
+  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+}
+
 /// Collective. Where the solid is strained most: the cell with the smallest eigenvalue of B.
 std::string place_of_strain(const Solver& solver) {
   Real least = std::numeric_limits<Real>::max();
@@ -53,7 +63,10 @@ std::string place_of_strain(const Solver& solver) {
 
 }  // namespace
 
-void tell_of_images(const Solver& solver) {
+void tell_of_solids(const Solver& solver) {
+  const Real share = ranks() > 1 ? solid_share(solver) : 0;
+  if (rank() == 0 && share > 0)
+    std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
   for (const Body& body : solver.bodies())
     if (body.filled.cut_by.odd)
       say("notice",

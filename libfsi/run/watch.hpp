@@ -10,8 +10,9 @@
 
 namespace fsi {
 
-/// A notice of each solid that is cut by planes of symmetry whose images do not make it whole.
-void tell_of_images(const Solver& solver);
+/// Collective. How evenly the ranks share the solids, and a notice of each solid that is cut by
+/// planes of symmetry whose images do not make it whole.
+void tell_of_solids(const Solver& solver);
 
 /// A notice if the case has solids and the solver none.
 void tell_of_missing_solids(const Solver& solver, std::size_t in_case);

@@ -89,7 +89,7 @@ TEST(Watch, ASolidWithoutAWholeIsTold) {
     solver.start([](const Vec3&) { return Vec3{}; });
     solver.put_solid({.shape = shapes::translate(shapes::sphere(radius), at), .G = 1, .mu = 0.1});
     testing::internal::CaptureStderr();
-    tell_of_images(solver);
+    tell_of_solids(solver);
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said(0.4, {0, 0, 0}), "");
