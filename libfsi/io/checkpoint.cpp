@@ -130,17 +130,18 @@ std::vector<Real> solid_fractions(const std::string& directory,
   const std::string file = broadcast(rank() == 0 ? newest_sound(directory, skip) : "");
   const auto total = static_cast<std::uint64_t>(global_sum(static_cast<GlobalIndex>(count)));
   std::vector<Real> sum(static_cast<std::size_t>(count), 0), one(sum);
-  bool good = !file.empty();
-  if (good) {
+  bool found = false;
+  if (!file.empty()) {
     const Hdf5File fields(file);
-    good = fields.ok();
     for (const std::string& solid : solids) {
       const std::string name = "/fields/" + (solid.empty() ? "" : solid + "_") + "alpha";
-      good = good && fields.dataset(name, total, static_cast<std::uint64_t>(first), one, 1);
+      if (!fields.ok() || !fields.dataset(name, total, static_cast<std::uint64_t>(first), one, 1))
+        continue;
+      found = true;
       for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += one[c];
     }
   }
-  return all_of_ranks(good) ? sum : std::vector<Real>{};
+  return all_of_ranks(found) ? sum : std::vector<Real>{};
 }
 
 Checkpoint::Checkpoint(std::string directory, const Mesh& mesh)

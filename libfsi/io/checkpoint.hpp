@@ -57,7 +57,7 @@ class Snapshot {
 
 /// Collective. How much of a cell the solids fill in the newest sound checkpoint of a directory,
 /// one value for each of `count` cells from number `first` on (Mesh::global_id). solids: their
-/// names. Empty on all ranks where no checkpoint has these solids in these cells.
+/// names; one that it does not have fills nothing. Empty on all ranks if it has none of them.
 std::vector<Real> solid_fractions(const std::string& directory,
                                   const std::vector<std::string>& solids, Index first, Index count);
 

@@ -156,7 +156,7 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   output.divide_anew = options.flag(
       "restart_divide", false,
       "with -restart: divide the mesh anew, so that the ranks share the solids where they are now");
-  require(output.restart || !output.divide_anew,
+  require(options.help() || output.restart || !output.divide_anew,
           "option -restart_divide goes with -restart: a start divides the mesh by the solids");
   output.end_when_empty = options.flag(
       "end_when_empty", false,
@@ -221,7 +221,7 @@ void set_loads(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
   for (const SolidSetup& s : solids) names.push_back(s.solid.name);
   mesh.loads = [names, directory = output.directory](Index first, Index count) {
     std::vector<Real> loads = io::solid_fractions(directory, names, first, count);
-    for (Real& load : loads) load = load > 0 ? 1 : 0;
+    for (Real& load : loads) load = load >= 0.5 ? 1 : 0;
     return loads;
   };
 }

@@ -99,10 +99,15 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
   mesh_.halo.update(force);
 }
 
-// u_f . grad (u_N - u_P), u_f = (u_P + u_N) / 2
+// b u_f . grad (u_N - u_P), u_f = (u_P + u_N) / 2, b the part that the Courant number at f allows
 Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) const {
+  constexpr Real whole = 0.3, none = 0.5;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  return dot(solid.L[N] + -1.0 * solid.L[P], 0.5 * (solid.u[P] + solid.u[N]));
+  const Vec3 u = 0.5 * (solid.u[P] + solid.u[N]);
+  const Real courant =
+      solid.dt * (std::abs(u.x) + std::abs(u.y) + std::abs(u.z)) / norm(mesh_.d[f]);
+  const Real part = std::clamp((none - courant) / (none - whole), Real{0}, Real{1});
+  return part * dot(solid.L[N] + -1.0 * solid.L[P], u);
 }
 
 Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights,

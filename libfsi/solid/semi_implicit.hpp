@@ -46,7 +46,7 @@ struct ElasticTerms {
 
 /// Two terms that keep velocity and strain stable and leave a resolved solution unchanged:
 ///
-///   div(kappa (grad u* - grad u^n + dt u^n . grad (grad u^n))),
+///   div(kappa (grad u* - grad u^n + b dt u^n . grad (grad u^n))),
 ///   kappa = 0.4 dt G alpha_f lambda_B
 ///
 /// It stands for the change of the elastic stress over the step, which by div u = 0 is div(dt G B .
@@ -54,9 +54,11 @@ struct ElasticTerms {
 /// w^2 dt^2 / (1 + C w^2 dt^2) <= 4, which C >= 1/4 makes true for any dt. The fastest mode turns
 /// by arccos(1 - 1 / (2 C)) in a step. With C = 0.3 that is 132 degrees, and in a thin body the
 /// waves persist that the surface excites as it crosses cells. With C = 0.4 it is 104 degrees. The
-/// term vanishes with the change of grad u along the path of a particle, so that a body which
-/// passes through the mesh as it is has none of it. With the change at a fixed place a ring turns
-/// too far: at Courant number 0.5 its angle is off by twice as much (doc/verification/torus.md).
+/// term with b = 1 vanishes with the change of grad u along the path of a particle, so that within
+/// a body which passes through the mesh as it is it is zero. With the change at a fixed place, b =
+/// 0, a ring turns too far (doc/notebook/2026-11-27-along-the-path.md). The part in b is explicit,
+/// and unstable where a stiff body moves by half a cell in a step. b is 1 up to the Courant number
+/// 0.3 of the body, and falls to 0 at 0.5. At faces of the boundary b = 0.
 ///
 ///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///
@@ -108,7 +110,8 @@ class SemiImplicitElasticity {
   /// face, to what the flux needs.
   Vec3 damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights, Index f,
                Real l) const;
-  /// How fast the rise of u from the owner of face f to the neighbour changes along the stream.
+  /// How fast the rise of u from the owner of face f to the neighbour changes along the stream, the
+  /// part b of it.
   Vec3 change_of_rise(const ElasticTerms& solid, Index f) const;
 
   const Mesh& mesh_;

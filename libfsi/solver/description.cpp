@@ -46,7 +46,7 @@ OfBody calls_of(const Body& body) {
   calls.elastic = elastic(body);
   calls.force = force(body);
   if (body.semi_implicit()) {
-    calls.implicit = "kappa = 0.4 dt G alpha_f lambda or what the damping e needs, and e";
+    calls.implicit = "kappa = 0.4 dt G alpha_f lambda or what e needs; b kappa dt u . grad L; e";
     if (body.two_viscosities) calls.implicit += "; a part of the traction";
   }
   return calls;

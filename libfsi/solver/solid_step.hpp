@@ -44,7 +44,8 @@ void advance_interface(Body& body, const FlowAround& flow, Real t);
 /// (4) Collective. Moves the jump of the pressure with the surface. p: owned and halo.
 void advect_pressure_jump(CellField<Real>& p, const Body& body);
 
-/// (7) Collective. Carries the memory, if there is one. Sets L on its cells if the flow has none.
+/// (7) Collective. Carries the memory, if there is one, in two halves where `advance_interface`
+/// took two parts or more. Sets L on its cells if the flow has none.
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow);
 
 /// (8) Collective. Strains the body over the time of `advance_interface`, and sets anew what
