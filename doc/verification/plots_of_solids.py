@@ -271,8 +271,8 @@ def torus():
     lines(right, [(name, t, [first(row[i]) for row in table]) for i, name in
                   ((2, "x, % of D"), (4, "y, % of D"), (6, "angle, degrees"))],
           "t, dimensionless", "Courant numbers 0.5 and 0.1, apart", log="")
-    right.axhline(0.5, color="k", linestyle=":", linewidth=1, label="asked of x")
-    right.set_ylim(0, 0.85)
+    right.axhline(0.15, color="k", linestyle=":", linewidth=1, label="asked of x, y")
+    right.set_ylim(0, 0.25)
     right.legend(fontsize=8, loc="upper left", ncol=2)
     return figure
 
