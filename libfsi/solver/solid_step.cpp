@@ -146,8 +146,8 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
                                      .one_sided = one_sided_of(body),
                                      .wave_speed = body.wave_speed(),
                                      .recovery = body.G / body.mu};
-  // The memory holds the interface, so it goes in parts with it. More than two parts change little
-  // (doc/notebook/2026-11-27-along-the-path.md).
+  // The memory holds the interface, so it goes in parts with it: two at most, since each costs as
+  // much as one of the whole step (doc/notebook/2026-11-27-along-the-path.md).
   const int parts = std::min(body.interface_parts, 2);
   for (int i = 0; i < parts; ++i)
     map.transport(body.fraction_of_memory(), snapshot, body.dt / parts, body.grad);
