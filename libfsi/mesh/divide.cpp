@@ -89,6 +89,7 @@ struct Method {
   int tries = 1;           // divisions of which the one with the least cut counts
   int passes = 10;         // of the refinement
   int excess = 0;          // of a part over its share that is allowed, 1 / 1000; 0: METIS decides
+  bool load = true;        // whether the load is balanced too, where there is one
 };
 
 /// The vertices' parts by METIS. cells: how many each vertex stands for; ties: weights beside
@@ -96,7 +97,7 @@ struct Method {
 Ints parts_of(const Graph& graph, const Ints& cells, const Ints& ties, int parts,
               const Method& method) {
   idx_t options[METIS_NOPTIONS], n = graph.cells(), n_parts = parts, cut = 0;
-  idx_t constraints = graph.load.empty() ? 1 : 2;
+  idx_t constraints = graph.load.empty() || !method.load ? 1 : 2;
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;  // the same parts every time
   options[METIS_OPTION_NCUTS] = method.tries, options[METIS_OPTION_NITER] = method.passes;
@@ -154,15 +155,18 @@ Ints divide_columns(const Graph& graph, int parts) {
   return excess_of(graph, part, parts).cells < even ? part : Ints{};
 }
 
-/// Division cell by cell, by the more even of METIS's methods.
+/// Division cell by cell, by the most even of METIS's methods. Where the load stands in too few
+/// cells for the parts, METIS may give up the balance of the cells for it: the last one leaves it
+/// out.
 Ints divide_cells(const Graph& graph, int parts) {
   constexpr double good_cells = 1.03, good_load = 1.1;
   Ints best;
   double least = 0;
   const bool few = parts <= 8;  // recursive bisection is the better one for few parts
-  for (const bool recursive : {few, !few}) {
+  for (const Method& method : {Method{.recursive = few}, Method{.recursive = !few},
+                               Method{.recursive = few, .load = false}}) {
     if (!best.empty() && least == 0) break;
-    Ints part = parts_of(graph, {}, {}, parts, {.recursive = recursive});
+    Ints part = parts_of(graph, {}, {}, parts, method);
     if (part.empty()) continue;
     const auto [cells, load] = excess_of(graph, part, parts);
     const double cost = std::max(0.0, cells - good_cells) + std::max(0.0, load - good_load) / 4;

@@ -205,17 +205,20 @@ std::map<std::string, std::string> lines(const std::string& text) {
   return items;
 }
 
-/// What a cell of solid costs beyond one of fluid, as MeshOptions have it. The cost of the solid is
-/// that of its cells and of those that its surface cuts.
+/// What a cell of solid costs beyond one of fluid, as MeshOptions have it. The cells whose centre
+/// the solid holds cost the same; those around it, which its surface cuts, are shared with them.
+/// The place of a solid on a path is not known here.
 void set_loads(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
                const OutputSetup& output) {
-  // A margin stands for the cells that the surface cuts, since their size is not known here.
-  constexpr Real margin = 0.1;
   if (solids.empty()) return;
-  mesh.load = [solids](const Vec3& x) {
-    const auto holds = [&](const SolidSetup& s) { return s.solid.shape(x) < margin * s.thickness; };
-    return static_cast<Real>(std::ranges::count_if(solids, holds));
-  };
+  std::vector<shapes::Shape> placed;
+  for (const SolidSetup& s : solids)
+    if (!s.on_path) placed.push_back(s.solid.shape);
+  if (!placed.empty())
+    mesh.load = [placed](const Vec3& x) {
+      const auto holds = [&](const shapes::Shape& shape) { return shape(x) < 0; };
+      return static_cast<Real>(std::ranges::count_if(placed, holds));
+    };
   if (!output.divide_anew) return;
   std::vector<std::string> names;
   for (const SolidSetup& s : solids) names.push_back(s.solid.name);

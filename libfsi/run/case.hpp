@@ -39,6 +39,7 @@ struct SolidSetup {
   std::string shape_name;      ///< as the option has it
   Real thickness = 0;          ///< the least of its dimensions
   Real centre_z = 0;           ///< not used in a 2-D run
+  bool on_path = false;        ///< whether its place is known only with the mesh
   std::string options;         ///< prefix of its options: "solid_" or "solids_NAME_"
 };
 

@@ -272,7 +272,8 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
     const std::string& of = solid.options;
     const auto [path, s] = read_path(options, of);
     if (path.empty()) continue;
-    require(path.size() == 2, "option -" + of + "path needs two patches: from,to");
+    require(path.size() == 2 && path[0] != path[1],
+            "option -" + of + "path needs two different patches: from,to");
     require(!options.given(of + "axis"),
             "options -" + of + "path and -" + of + "axis exclude each other");
     const flow::CentreLine line(mesh, path[0], path[1]);

@@ -131,6 +131,7 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
   require(!on_path || !options.given(of + "center") || solid.shape_name == "none",
           "options -" + of + "path and -" + of +
               "center exclude each other: the path says where the solid starts; give one of them");
+  solid.on_path = on_path;
   const Vec3 unset{0.5, 0.5, 0.5};
   const Vec3 centre =
       on_path ? unset

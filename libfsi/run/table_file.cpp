@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -21,7 +23,8 @@ bool one_of(char c, std::string_view set) { return set.find(c) != std::string_vi
 /// Collective. The text of a file as rank 0 reads it, without the mark that some editors put first.
 std::string text_of(const std::string& file) {
   std::string text = "?";
-  if (rank() == 0)
+  std::error_code code;
+  if (rank() == 0 && !std::filesystem::is_directory(file, code))
     if (std::ifstream stream(file); stream)
       text = std::string(std::istreambuf_iterator<char>(stream), {});
   text = broadcast(text);

@@ -40,6 +40,8 @@ def cases(Case):
              damage=f.renamed("left", "left side")),
         case("patches that differ by capitals", yaml(), "\"left\" and \"Left\"", "capitals",
              damage=f.renamed("right", "Left")),
+        case("path from a patch to itself", yaml("solid: {shape: sphere, path: [left, left]}"), "-solid_path",
+             "two different patches"),
         case("path and centre", yaml("solid: {shape: sphere, path: [left, right], center: [0.5, 0.5, 0]}"),
              "-solid_path", "-solid_center", "exclude each other"),
         case("path and centre of one of several", yaml("solids: {one: {shape: sphere, path: [left, right], "
@@ -57,6 +59,7 @@ def cases(Case):
         case("period of a number", yaml(left="{type: flow_rate, flow_rate: 0.5, period: 1}"),
              "-patches_left_period", "is a number", "csv"),
         case("table not there", yaml(left="{type: flow_rate, flow_rate: none.csv}"), "none.csv"),
+        case("folder for a table", yaml(left="{type: velocity, velocity_file: .}"), "cannot read the file"),
         table("columns of a table swapped", "flow_rate,time\n1,0\n2,1\n", "column 1", "\"flow_rate\"",
               "t or time"),
         table("table of something else", "time,pressure\n0,1\n1,2\n", "column 2", "\"pressure\"",

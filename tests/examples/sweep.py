@@ -113,6 +113,16 @@ def main():
                   for name in ("slow", "as it is")]
     check(velocities == [["0.5"], ["1"]], f"points with names, one with the case's value: {velocities}")
 
+    with open(named, "w", encoding="utf-8-sig") as file:  # as a spreadsheet writes it
+        file.write("name;lid_velocity\nfast;2\n")
+    subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    check('lid_velocity: 2' in text(os.path.join(out, "fast"), "run.yaml").replace('"', ""), "a table of a spreadsheet")
+    with open(named, "w", encoding="utf-8") as file:
+        file.write("lid_velocity, lid_velocity\n1, 2\n")
+    bad = subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    check(bad.returncode == 2 and "column lid_velocity stands there twice" in bad.stderr,
+          f"a column that stands there twice is refused: {bad.stderr}")
+
     with open(points, "a", encoding="utf-8") as file:
         file.write("1\n")
     bad = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)

@@ -242,6 +242,16 @@ TEST(Division, ColumnsDoNotDependOnTheAxisLengthAndHoldCellsInLine) {
   }
 }
 
+// No division shares a load that stands in one cell. The cells are shared nevertheless.
+TEST(Division, ALoadInOneCellDoesNotSpoilTheBalanceOfTheCells) {
+  const TextFile file(BlockText(block_without_rows()).text());
+  Graph graph = faces_of(check_mesh(read_gmsh(file.path()), {}));
+  graph.load.assign(static_cast<std::size_t>(graph.cells()), 0);
+  graph.load[0] = 8;
+  for (const int parts : {2, 4, 8})
+    EXPECT_LT(excess(divide(graph, parts), parts, [](Index) { return 1; }), 1.05) << parts;
+}
+
 TEST(Division, FewerCellsThanRanks) {
   Block block;
   block.n = {2, 1, 1};
