@@ -4,6 +4,7 @@
     sweep.py SOURCE DRIVERS FOLDER
 """
 import csv
+import fcntl
 import os
 import re
 import shutil
@@ -122,6 +123,13 @@ def main():
     bad = subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     check(bad.returncode == 2 and "column lid_velocity stands there twice" in bad.stderr,
           f"a column that stands there twice is refused: {bad.stderr}")
+
+    with open(os.path.join(second, ".lock"), "wb") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        os.remove(os.path.join(second, "summary.json"))
+        again = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        check("running already" in again.stdout and again.returncode == 1,
+              f"a point that runs is left alone: {again.stdout}")
 
     with open(points, "a", encoding="utf-8") as file:
         file.write("1\n")
