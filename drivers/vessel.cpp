@@ -14,10 +14,9 @@ RunStatus body() {
   if (options.help()) return list_vessel_options(options), RunStatus::complete;
 
   // 2 mesh and boundary conditions
-  const Mesh mesh = read_mesh(setup.mesh);
+  const Mesh mesh = read_mesh_and_place(setup, options);
   setup.flow.conditions = read_patches(options, mesh);
   if (norm(force) > 0) setup.flow.body_force = [=](const Vec3&, Real) { return force; };
-  place_solids(setup.solids, options, mesh);
   options.check_unknown();
   describe(setup, mesh, 1, 0);
 

@@ -205,21 +205,10 @@ std::map<std::string, std::string> lines(const std::string& text) {
   return items;
 }
 
-/// What a cell of solid costs beyond one of fluid, as MeshOptions have it. The cells whose centre
-/// the solid holds cost the same; those around it, which its surface cuts, are shared with them.
-/// The place of a solid on a path is not known here.
-void set_loads(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
-               const OutputSetup& output) {
-  if (solids.empty()) return;
-  std::vector<shapes::Shape> placed;
-  for (const SolidSetup& s : solids)
-    if (!s.on_path) placed.push_back(s.solid.shape);
-  if (!placed.empty())
-    mesh.load = [placed](const Vec3& x) {
-      const auto holds = [&](const shapes::Shape& shape) { return shape(x) < 0; };
-      return static_cast<Real>(std::ranges::count_if(placed, holds));
-    };
-  if (!output.divide_anew) return;
+/// With -restart_divide the cells that the solids of the newest checkpoint fill at least half.
+void share_as_in_checkpoint(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
+                            const OutputSetup& output) {
+  if (solids.empty() || !output.divide_anew) return;
   std::vector<std::string> names;
   for (const SolidSetup& s : solids) names.push_back(s.solid.name);
   mesh.loads = [names, directory = output.directory](Index first, Index count) {
@@ -238,6 +227,17 @@ bool of_undeformed_solid(const std::string& name) {
 
 }  // namespace
 
+void share_solids(MeshOptions& mesh, const std::vector<SolidSetup>& solids) {
+  std::vector<shapes::Shape> placed;
+  for (const SolidSetup& s : solids)
+    if (!s.on_path) placed.push_back(s.solid.shape);
+  if (placed.empty()) return;
+  mesh.load = [placed](const Vec3& x) {
+    const auto holds = [&](const shapes::Shape& shape) { return shape(x) < 0; };
+    return static_cast<Real>(std::ranges::count_if(placed, holds));
+  };
+}
+
 Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   Case result;
   result.mesh = read_mesh_options(options, path);
@@ -247,7 +247,8 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.solids = read_solids(options, result.physics);
   result.time = read_time(options);
   result.output = read_output(options, driver);
-  set_loads(result.mesh, result.solids, result.output);
+  share_solids(result.mesh, result.solids);
+  share_as_in_checkpoint(result.mesh, result.solids, result.output);
   check_intervals(result.output, result.time.end);
   require(options.help() || !result.mesh.file.empty(),
           "option -mesh is missing: the gmsh file of the geometry");

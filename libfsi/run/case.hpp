@@ -39,7 +39,7 @@ struct SolidSetup {
   std::string shape_name;      ///< as the option has it
   Real thickness = 0;          ///< the least of its dimensions
   Real centre_z = 0;           ///< not used in a 2-D run
-  bool on_path = false;        ///< whether its place is known only with the mesh
+  bool on_path = false;        ///< whether its place still has to be found, on the mesh
   std::string options;         ///< prefix of its options: "solid_" or "solids_NAME_"
 };
 
@@ -67,6 +67,11 @@ void put_solids(Solver& solver, const Case& setup);
 /// Reads and checks the common options. `path`: the path of solids in this driver's flow, the
 /// default of -mesh_divide_along. Errors: Error{input}.
 Case read_case(Options& options, const std::string& driver, const Vec3& path = {});
+
+/// The ranks shall share the cells whose centre the solids hold, as MeshOptions have it. The cells
+/// around, which the surface cuts, are then shared well enough. A solid whose place is not known
+/// does not count.
+void share_solids(MeshOptions& mesh, const std::vector<SolidSetup>& solids);
 
 /// The options of the simulated case, a line "name value" for each: all but those of mesh, time and
 /// output.

@@ -263,8 +263,7 @@ Path read_path(Options& options, const std::string& of) {
   return {patches, s};
 }
 
-}  // namespace
-
+/// Collective. Puts the solids on their paths.
 void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh& mesh) {
   Options aside(options);
   for (const std::string& of : solids_without_shape(options)) read_path(aside, of);
@@ -291,6 +290,18 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
         "%s on the centre line from %s to %s, %.4g of %.4g along it: at (%.5g, %.5g, %.5g)\n",
         name.c_str(), path[0].c_str(), path[1].c_str(), s, line.length(), at.x, at.y, at.z);
   }
+}
+
+}  // namespace
+
+Mesh read_mesh_and_place(Case& setup, Options& options) {
+  const bool late = std::ranges::any_of(setup.solids, &SolidSetup::on_path);
+  Mesh mesh = read_mesh(setup.mesh);
+  place_solids(setup.solids, options, mesh);
+  if (!late || ranks() == 1 || setup.mesh.loads) return mesh;
+  for (SolidSetup& solid : setup.solids) solid.on_path = false;
+  share_solids(setup.mesh, setup.solids);
+  return read_mesh(setup.mesh);
 }
 
 void list_vessel_options(Options& options) {

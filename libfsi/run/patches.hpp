@@ -14,13 +14,15 @@ namespace fsi {
 /// not of the type of its patch. Also if an option that the type needs is missing, or a value or a
 /// file does not fit.
 Conditions read_patches(Options& options, const Mesh& mesh);
-/// The options of `read_patches` and `place_solids`, for -help without a mesh.
+/// The options of `read_patches` and `read_mesh_and_place`, for -help without a mesh.
 void list_vessel_options(Options& options);
 
-/// Collective. With -solid_path a,b and -solid_arc_length s: puts the solid on the vessel's centre
-/// line from patch a to patch b, at the arc length s from a. Its axis of revolution lies along the
-/// line (turned from it by -solid_angle about z). Without these options it does nothing. For a
-/// solid with the shape none they are ignored, as its other options are. Errors: Error{input}.
-void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh& mesh);
+/// Collective. Reads the mesh of the case. With -solid_path a,b and -solid_arc_length s: puts the
+/// solid on the vessel's centre line from patch a to patch b, at the arc length s from a. Its axis
+/// of revolution lies along the line (turned from it by -solid_angle about z). Without these
+/// options it does nothing. For a solid with the shape none they are ignored, as its other options
+/// are. Several ranks then read the mesh a second time, divided so that they share the solid.
+/// Errors: Error{input}.
+Mesh read_mesh_and_place(Case& setup, Options& options);
 
 }  // namespace fsi
