@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
@@ -296,9 +297,10 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
 
 Mesh read_mesh_and_place(Case& setup, Options& options) {
   const bool late = std::ranges::any_of(setup.solids, &SolidSetup::on_path);
-  Mesh mesh = read_mesh(setup.mesh);
-  place_solids(setup.solids, options, mesh);
-  if (!late || ranks() == 1 || setup.mesh.loads) return mesh;
+  std::optional<Mesh> mesh(read_mesh(setup.mesh));
+  place_solids(setup.solids, options, *mesh);
+  if (!late || ranks() == 1 || setup.mesh.loads) return std::move(*mesh);
+  mesh.reset();  // two would take twice the memory
   for (SolidSetup& solid : setup.solids) solid.on_path = false;
   share_solids(setup.mesh, setup.solids);
   return read_mesh(setup.mesh);
