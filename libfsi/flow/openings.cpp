@@ -115,13 +115,24 @@ void Openings::advance(BoundaryField<Real>& q_b, Real t, Real factor) {
 void Openings::set_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                             const std::vector<Tensor>& L_f, const FaceWeights& weights) const {
   for (const One& opening : openings_)
-    for (Index f = opening.patch.begin; f < opening.patch.end; ++f) {
-      const Index i = weights.place[f];
-      const Vec3 d = mesh_.d[f], S = mesh_.Sf[f];
-      Vec3& value = u_b[f - mesh_.n_internal];
-      value = u[mesh_.owner[f]];
-      if (i >= 0) value += dot(L_f[i], d - (dot(d, S) / norm2(S)) * S);
-    }
+    for (Index f = opening.patch.begin; f < opening.patch.end; ++f)
+      u_b[f - mesh_.n_internal] = velocity(f, u, L_f, weights);
+}
+
+Vec3 Openings::velocity(Index f, const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
+                        const FaceWeights& weights) const {
+  const Vec3 d = mesh_.d[f], S = mesh_.Sf[f];
+  Vec3 u_f = u[mesh_.owner[f]];
+  if (const Index i = weights.place[f]; i >= 0) u_f += dot(L_f[i], d - (dot(d, S) / norm2(S)) * S);
+  return u_f;
+}
+
+void Openings::set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi,
+                               const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
+                               const FaceWeights& weights) const {
+  for (const One& opening : openings_)
+    for (Index f = opening.patch.begin; f < opening.patch.end; ++f)
+      excess[f] = phi[f] - dot(velocity(f, u, L_f, weights), mesh_.Sf[f]);
 }
 
 void Openings::set_inflow(BoundaryField<Vec3>& u_b, const FaceField<Real>& phi) const {

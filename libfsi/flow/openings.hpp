@@ -38,6 +38,10 @@ class Openings {
   /// L_f: at irregular faces.
   void set_velocity(BoundaryField<Vec3>& u_b, const CellField<Vec3>& u,
                     const std::vector<Tensor>& L_f, const FaceWeights& weights) const;
+  /// e_f = phi_f - u_b . S of that velocity, on the faces of openings.
+  void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi,
+                       const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
+                       const FaceWeights& weights) const;
   /// Inflow enters along the normal: u_b = phi S / |S|^2 where phi < 0.
   void set_inflow(BoundaryField<Vec3>& u_b, const FaceField<Real>& phi) const;
 
@@ -66,6 +70,9 @@ class Openings {
   ///@}
 
  private:
+  /// u_b at a face of an opening.
+  Vec3 velocity(Index f, const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
+                const FaceWeights& weights) const;
   void set_basis(One& opening) const;
   bool orthonormalise(const One& opening, std::vector<Real>& e) const;
 

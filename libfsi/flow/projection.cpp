@@ -19,44 +19,81 @@ bool any(const std::vector<bool>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
+Real density(const FluxTerms& terms, Index f) {
+  return terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
+}
+
 /// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f the sum of all implicit coefficients.
 Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
   const Real strain = terms.stiffness != nullptr ? (*terms.stiffness)[f] : 0;
   const Real implicit = terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * strain;
-  const Real rho = terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
-  return t_f / (rho + 4 * t_f * implicit / norm2(mesh.d[f]));
+  return t_f / (density(terms, f) + 4 * t_f * implicit / norm2(mesh.d[f]));
+}
+
+/// lambda u_P + (1 - lambda) u_N + L_f . delta_1-lambda.
+Vec3 face_velocity(const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
+                   const FaceWeights& weights, const Mesh& mesh, Index f) {
+  const Real lambda = weights.lambda[f];
+  Vec3 u_f = lambda * u[mesh.owner[f]] + (1 - lambda) * u[mesh.neighbour[f]];
+  if (const Index i = weights.place[f]; i >= 0) u_f += dot(L_f[i], weights.from_mirror(f, mesh));
+  return u_f;
+}
+
+/// A part of the stress that is 0 away from solids: from 0 to 1e-7 of the stress it rises to 1.
+Real nearness(const FluxTerms& terms, Real part) {
+  constexpr Real whole = 1e-7;
+  if (part == 0) return 0;
+  return terms.stress > 0 ? std::min(Real{1}, part / (whole * terms.stress)) : 1;
+}
+
+/// t_f: at the solid's surface the braces contain a jump, and its flux is an error in proportion
+/// to t_f.
+Real damping_time(const FluxTerms& terms, const Mesh& mesh, Index f, Real speed) {
+  constexpr Real courant = 0.02;
+  const Real near = nearness(terms, std::abs(terms.rhie_chow_source[f]));
+  if (near == 0) return terms.dt;
+  const Real shorter = std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(speed, 1e-300));
+  return terms.dt - near * (terms.dt - shorter);
+}
+
+/// w_f = (1 - a_f) max(0, 1 - rho d_f / T_f),
+/// 1 / T_f = 6 |u_f| / |d| + 3 mu / (rho |d|^2) + 1 / t; a_f: nearness to solids.
+Real held(const FluxTerms& terms, const Mesh& mesh, Index f, Real d_f, Real speed) {
+  constexpr Real convection = 6, viscosity = 3;
+  if (terms.excess == nullptr || terms.t <= 0) return 0;
+  const Real strain = terms.stiffness != nullptr ? (*terms.stiffness)[f] / terms.dt : 0;
+  const Real near = nearness(terms, std::abs(terms.rhie_chow_source[f]) + strain);
+  const Real rate = density(terms, f) * (convection * speed / norm(mesh.d[f]) + 1 / terms.t) +
+                    viscosity * terms.mu[f] / norm2(mesh.d[f]);
+  return (1 - near) * std::max(Real{0}, 1 - d_f * rate);
 }
 
 }  // namespace
 
+void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                     const std::vector<Tensor>& L_f, const FaceWeights& weights, const Mesh& mesh) {
+  for (Index f = 0; f < mesh.n_internal; ++f)
+    excess[f] = phi[f] - dot(face_velocity(u, L_f, weights, mesh, f), mesh.Sf[f]);
+}
+
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
-  // At the solid's surface the braces contain a jump, and its flux is an error in proportion to
-  // t_f.
-  constexpr Real courant = 0.02, whole = 1e-7;  // |c_f| over the stress where t_f is at its bound
-  const auto time = [&](Index f, const Vec3& u_f) {
-    const Real size = std::abs(terms.rhie_chow_source[f]);
-    if (size == 0) return terms.dt;
-    const Real acts = terms.stress > 0 ? std::min(Real{1}, size / (whole * terms.stress)) : 1;
-    const Real shorter =
-        std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(norm(u_f), 1e-300));
-    return terms.dt - acts * (terms.dt - shorter);
-  };
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f], i = weights.place[f];
     const Real lambda = weights.lambda[f];
-    Vec3 u_f = lambda * u[P] + (1 - lambda) * u[N];
+    const Vec3 u_f = face_velocity(u, terms.L_f, weights, mesh, f);
     const Vec3 grad_f = lambda * terms.grad_p[P] + (1 - lambda) * terms.grad_p[N];
     Real brace = dot(grad_f, mesh.Sf[f]) +
                  weights.g[f] * (terms.rhie_chow_source[f] - (terms.p[N] - terms.p[P]));
-    if (i >= 0) {
-      u_f += dot(terms.L_f[i], weights.from_mirror(f, mesh));
-      brace -= dot(terms.grad_p_f[i], weights.k[f]);
-    }
+    if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
     if (terms.density != nullptr)
       brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
-    phi[f] = dot(u_f, mesh.Sf[f]) + damped(terms, mesh, f, time(f, u_f)) * brace;
+    const Real speed = norm(u_f);
+    const Real d_f = damped(terms, mesh, f, damping_time(terms, mesh, f, speed));
+    phi[f] = dot(u_f, mesh.Sf[f]) + d_f * brace;
+    if (const Real w_f = held(terms, mesh, f, d_f, speed); w_f > 0)
+      phi[f] += w_f * (*terms.excess)[f];
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     const Index b = f - mesh.n_internal, P = mesh.owner[f], i = weights.place[f];
@@ -66,7 +103,10 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
     if (terms.density != nullptr)
       brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
-    phi[f] += damped(terms, mesh, f, terms.dt) * brace;
+    const Real d_f = damped(terms, mesh, f, terms.dt);
+    phi[f] += d_f * brace;
+    if (const Real w_f = held(terms, mesh, f, d_f, norm(u_b[b])); w_f > 0)
+      phi[f] += w_f * (*terms.excess)[f];
   }
 }
 

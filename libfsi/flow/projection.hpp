@@ -35,12 +35,24 @@ struct FluxTerms {
   Real stress = 0;                         ///< scale of the elastic stress; 0 without one
   /// dt G alpha_f lambda_B if the flux strains a solid; null: it does not.
   const FaceField<Real>* stiffness = nullptr;
+  const FaceField<Real>* excess = nullptr;  ///< e_f of u^n; null: nothing is held
+  Real t = 0;                               ///< since the start of the flow; read with e_f only
 };
 
+/// e_f = phi_f - Phi(u)_f of one time: what the flux has in addition to the mean velocity. Inner
+/// faces only; those of openings have their own (openings.hpp). u: owned and halo, L_f: of u.
+void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi, const CellField<Vec3>& u,
+                     const std::vector<Tensor>& L_f, const FaceWeights& weights, const Mesh& mesh);
+
 /// Balanced, damped Rhie-Chow flux [Rhie83]:
-///   phi* = Phi(u*) + d_f { Phi(grad p) - g (p_N - p_P) - k . (grad p)_f + g c_f },
+///   phi* = Phi(u*) + w_f e_f + d_f { Phi(grad p) - g (p_N - p_P) - k . (grad p)_f + g c_f },
 ///   Phi(v) = [lambda v_P + (1 - lambda) v_N (+ L_f . delta_1-lambda for u*)] . S,
-///   d_f = t_f / (rho + 4 t_f (theta_f mu + kappa + 2 dt G alpha_f lambda_B) / |d|^2).
+///   d_f = t_f / (rho + 4 t_f (theta_f mu + kappa + 2 dt G alpha_f lambda_B) / |d|^2),
+///   w_f = (1 - a_f) max(0, 1 - rho d_f / T_f),
+///   1 / T_f = 6 |u_f| / |d| + 3 mu / (rho |d|^2) + 1 / t.
+/// The part w_f of the old excess stays. In a steady flow the excess is then T_f times the braces
+/// over rho in all steps shorter than T_f, so the flow does not depend on the step [Choi99]. a_f is
+/// 0 in the fluid and 1 on faces where c_f or alpha_f lambda_B G is at least 1e-7 of the stress.
 /// The mirrored weights of Phi make its divergence the adjoint of the pressure's gradient but for
 /// the skewness. With d_f = dt and c_f = 0 a step multiplies the divergence of u by 1 - M A^-1, A
 /// the Laplacian of the compact gradients, M of the averaged ones. M is between 0 and 2 A on any

@@ -108,6 +108,7 @@ Solver::Calls::Calls(Profile& profile)
       add_semi_implicit(profile.add("add_semi_implicit", "solid")),
       add_body_force(profile.add("add_body_force", "momentum")),
       balance_weight(profile.add("balance_weight", "pressure")),
+      set_flux_excess(profile.add("set_flux_excess", "flux")),
       predict_momentum(profile.add("predict_momentum", "momentum")),
       predict_flux(profile.add("predict_flux", "flux")),
       project(profile.add("project", "pressure")),

@@ -88,7 +88,7 @@ std::vector<std::string> Solver::describe_step() const {
   std::string viscosity = where(modes_.mu_varies, "mu of fluid and solids by alpha");
   if (modes_.films)
     viscosity += std::string(viscosity.empty() ? "" : "; ") + "that of the film at walls";
-  const std::array<std::pair<const char*, std::string>, 18> calls{{
+  const std::array<std::pair<const char*, std::string>, 19> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},
       {"separate_bodies", where(separation_.has_value(), "sum of the fractions limited to 1")},
@@ -106,6 +106,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
       {"balance_weight", where(heavy_.has_value(),
                                "first step: p balances the weight; each step: force on the cells")},
+      {"set_flux_excess", where(!projection_.orthogonal(), "flux less the mean of u")},
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
       {"predict_flux",
        std::string("phi* of u*") + (modes_.flux_strain ? ", damped by the term in lambda_B" : "")},

@@ -71,6 +71,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       kappa_(mesh),
       stiffness_(mesh),
       rhie_chow_source_(mesh),
+      excess_(mesh),
       u_stencil_(mesh, weights_, velocity_given(conditions_), symmetric(conditions_)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
@@ -171,10 +172,11 @@ void Solver::step(Real dt) {
   add_semi_implicit(kappa_, stiffness_, force_, dt);           // (12)
   add_body_force(force_, t + dt / 2);                          // (13)
   balance_weight(state_);                                      // (14)
-  predict_momentum(state_.u, dt);                              // (15)
-  predict_flux(state_.phi, state_.u, dt);                      // (16)
-  project(state_, dt);                                         // (17)
-  hold_mean_velocity(state_, dt);                              // (18)
+  set_flux_excess(state_);                                     // (15)
+  predict_momentum(state_.u, dt);                              // (16)
+  predict_flux(state_.phi, state_.u, dt);                      // (17)
+  project(state_, dt);                                         // (18)
+  hold_mean_velocity(state_, dt);                              // (19)
   check(state_);
   state_.t += dt;
   ++state_.step;
@@ -211,6 +213,13 @@ void Solver::add_body_force(CellField<Vec3>& force, Real t) {
   }
   if (!all_of_ranks(std::isfinite(sum)))
     throw Error(ErrorKind::numerics, "the body force is not finite");
+}
+
+void Solver::set_flux_excess(const State& state) {
+  const Profile::Call call(profile_, calls_.set_flux_excess);
+  if (projection_.orthogonal()) return;
+  flow::set_flux_excess(excess_, state.phi, state.u, L_f_, weights_, mesh_);
+  openings_.set_flux_excess(excess_, state.phi, state.u, L_f_, weights_);
 }
 
 void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
@@ -257,7 +266,9 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
                               .density = heavy_ ? &heavy_->density : nullptr,
                               .force = heavy_ ? &heavy_->force : nullptr,
                               .stress = modes_.G,
-                              .stiffness = modes_.flux_strain ? &stiffness_ : nullptr};
+                              .stiffness = modes_.flux_strain ? &stiffness_ : nullptr,
+                              .excess = projection_.orthogonal() ? nullptr : &excess_,
+                              .t = state_.t};
   flow::predict_flux(phi, u, u_b_new_, momentum_.boundary().open, terms, weights_, mesh_);
 }
 

@@ -197,6 +197,7 @@ class Solver {
                          Real dt);
   void add_body_force(CellField<Vec3>& force, Real t);
   void balance_weight(State& state);
+  void set_flux_excess(const State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
   void project(State& state, Real dt);
@@ -280,8 +281,8 @@ class Solver {
     explicit Calls(Profile& profile);
     int hold_shape, advance_interface, separate_bodies, advect_pressure_jump, set_pressure_gradient,
         set_velocity_gradient, transport_memory, transport_elastic, mix_viscosity, mix_density,
-        add_elastic_force, add_semi_implicit, add_body_force, balance_weight, predict_momentum,
-        predict_flux, project, hold_mean_velocity, check;
+        add_elastic_force, add_semi_implicit, add_body_force, balance_weight, set_flux_excess,
+        predict_momentum, predict_flux, project, hold_mean_velocity, check;
   };
 
   const Mesh& mesh_;
@@ -299,7 +300,7 @@ class Solver {
   CellField<Vec3> grad_p_, grad_q_, force_;
   CellField<Tensor> L_;
   CellField<Real> q_, divergence_;
-  FaceField<Real> mu_, kappa_, stiffness_, rhie_chow_source_;
+  FaceField<Real> mu_, kappa_, stiffness_, rhie_chow_source_, excess_;
   GradientStencil u_stencil_;
   VertexMean<Tensor> vertex_mean_;
   std::vector<Tensor> L_f_;             // at irregular faces

@@ -21,7 +21,8 @@ TEST(Calls, EveryOneOfAStepHasALogEvent) {
        {"advance_interface", "separate_bodies", "advect_pressure_jump", "set_pressure_gradient",
         "set_velocity_gradient", "transport_elastic", "mix_viscosity", "mix_density",
         "add_elastic_force", "add_semi_implicit", "add_body_force", "balance_weight",
-        "predict_momentum", "predict_flux", "project", "hold_mean_velocity", "check"}) {
+        "set_flux_excess", "predict_momentum", "predict_flux", "project", "hold_mean_velocity",
+        "check"}) {
     PetscLogEvent event = -1;
     FSI_PETSC(PetscLogEventGetId(("fsi " + name).c_str(), &event));
     EXPECT_GE(event, 0) << name;

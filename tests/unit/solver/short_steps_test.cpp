@@ -1,0 +1,71 @@
+// Steps much shorter than a cell asks for. A flux that forgets the one before damps in proportion
+// to the step, and then neither the steady flow nor the order in time holds.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+#include "tests/unit/support/box_file.hpp"
+#include "tests/unit/support/flow_errors.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real pi = std::numbers::pi;
+
+struct Scene {
+  const char* name;
+  bool simplex, open;
+};
+
+/// Quads with points moved by up to a hundredth of a cell, or triangles. If open, the right side
+/// has a given pressure and the left side takes part in the inflow.
+std::vector<Vec3> driven(const Scene& scene, Real dt) {
+  constexpr Index n = 16;
+  test::BoxFile box{.n = {n, n, 0}, .simplex = scene.simplex};
+  box.moved = [](const Vec3& x) {
+    const Real s = std::sin(pi * x.x) * std::sin(pi * x.y);
+    return x + 0.01 / n * s * Vec3{std::sin(37 * x.x + 91 * x.y), std::cos(53 * x.x - 71 * x.y), 0};
+  };
+  const Mesh mesh = test::read_box(box);
+  const auto profile = [](Real s, Real t) {
+    return std::pow(std::sin(pi * s), 2) * std::pow(std::sin(pi * t), 2);
+  };
+  const FixedVelocity lid{[&](const Vec3& x, Real t) { return Vec3{profile(x.x, t), 0, 0}; }};
+  const FixedVelocity inlet{[&](const Vec3& x, Real t) { return Vec3{profile(x.y, t), 0, 0}; }};
+  Conditions conditions{{"bottom", Wall{}}, {"top", lid}};
+  conditions["left"] = scene.open ? Condition{inlet} : Condition{Wall{}};
+  conditions["right"] = scene.open ? Condition{Opening{0}} : Condition{Wall{}};
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.05}, {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < std::lround(1 / dt); ++i) solver.step(dt);
+  std::vector<Vec3> u;
+  for (Index c = 0; c < mesh.n_owned; ++c) u.push_back(solver.state().u[c]);
+  return u;
+}
+
+Real difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  Real square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) square += norm2(a[i] - b[i]);
+  return std::sqrt(square / static_cast<Real>(a.size()));
+}
+
+TEST(ShortSteps, TimeIsOfSecondOrder) {
+  for (const Scene& scene :
+       {Scene{"quads", false, false}, Scene{"triangles", true, false},
+        Scene{"quads, open", false, true}, Scene{"triangles, open", true, true}}) {
+    const std::vector<Vec3> a = driven(scene, 0.01), b = driven(scene, 0.005),
+                            c = driven(scene, 0.0025), d = driven(scene, 0.00125);
+    const Real first = difference(a, b), second = difference(b, c), third = difference(c, d);
+    std::printf("%s: u changes by %.2e, %.2e, %.2e, orders %.2f, %.2f\n", scene.name, first, second,
+                third, std::log2(first / second), std::log2(second / third));
+    EXPECT_GE(std::log2(first / third), scene.simplex && scene.open ? 3.1 : 3.7);
+  }
+}
+
+}  // namespace
+}  // namespace fsi
