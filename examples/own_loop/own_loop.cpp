@@ -39,7 +39,8 @@ fsi::RunStatus own_loop() {
   CellField<Vec3> u(mesh), grad_p(mesh), grad_q(mesh), force(mesh);
   CellField<Real> p(mesh), q(mesh), divergence(mesh);
   CellField<fsi::Tensor> L(mesh);
-  FaceField<Real> phi(mesh), mu(mesh, physics.mu_f), kappa(mesh), stiffness(mesh), source(mesh);
+  FaceField<Real> phi(mesh), mu(mesh, physics.mu_f), kappa(mesh), stiffness(mesh), source(mesh),
+      excess(mesh);
   BoundaryField<Vec3> u_b(mesh), u_b_new(mesh);
   const BoundaryField<Real> none(mesh);  // of p and q: no patch is open
   const std::vector<fsi::Tensor> L_f;    // at irregular faces: there are none
@@ -73,19 +74,20 @@ fsi::RunStatus own_loop() {
                                            .stiff = true,
                                            .force = force,
                                            .parabola = &parabola};
-  const flow::FluxTerms flux_terms{.L_f = L_f,
-                                   .p = p,
-                                   .grad_p = grad_p,
-                                   .grad_p_f = projection.face_gradient(),
-                                   .p_b = none,
-                                   .rhie_chow_source = source,
-                                   .mu = mu,
-                                   .theta = momentum.theta_taken(),
-                                   .kappa = kappa,
-                                   .rho = physics.rho,
-                                   .dt = dt,
-                                   .stress = disc.G,
-                                   .stiffness = &stiffness};
+  flow::FluxTerms flux_terms{.L_f = L_f,
+                             .p = p,
+                             .grad_p = grad_p,
+                             .grad_p_f = projection.face_gradient(),
+                             .p_b = none,
+                             .rhie_chow_source = source,
+                             .mu = mu,
+                             .theta = momentum.theta_taken(),
+                             .kappa = kappa,
+                             .rho = physics.rho,
+                             .dt = dt,
+                             .stress = disc.G,
+                             .stiffness = &stiffness,
+                             .excess = &excess};
 
   // 4 the loop
   Real t = 0;
@@ -107,10 +109,12 @@ fsi::RunStatus own_loop() {
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
     auto& old = *momentum.old();  // of the step before
     fsi::set_boundary_velocity(old.u_b, old.u, conditions, t - momentum.dt_old, mesh);
-    momentum.predict(u, momentum_terms, dt);                                      // (15)
-    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (16)
+    flow::set_flux_excess(excess, phi, u, L_f, weights, mesh);  // (15)
+    momentum.predict(u, momentum_terms, dt);                    // (16)
+    flux_terms.t = t;
+    flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (17)
     flow::divergence(divergence, phi, mesh);
-    projection.project(phi, q, grad_q, none, 0);  // (17)
+    projection.project(phi, q, grad_q, none, 0);  // (18)
     for (Index c = 0; c < mesh.n_cells; ++c) {
       u[c] -= grad_q[c];
       p[c] += physics.rho / dt * q[c];

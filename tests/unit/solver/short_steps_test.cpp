@@ -67,5 +67,37 @@ TEST(ShortSteps, TimeIsOfSecondOrder) {
   }
 }
 
+/// Kovasznay's flow on 16 x 16 squares cut in two, at t = 3.
+test::Errors kovasznay(Real dt) {
+  constexpr Real nu = 1.0 / 40;
+  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
+  const auto u = [lam](const Vec3& y) {
+    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
+    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
+                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
+  };
+  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .simplex = true});
+  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = nu},
+      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
+  solver.start(u);
+  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
+  return test::errors(solver, u, p);
+}
+
+// The excess of the flux once fell with the step, and the error of the pressure grew to ten times.
+TEST(ShortSteps, ASteadyFlowOnTrianglesDoesNotDependOnThem) {
+  const test::Errors one = kovasznay(0.08 / 16), fine = kovasznay(0.02 / 16),
+                     finest = kovasznay(0.005 / 16);
+  std::printf("Kovasznay, triangles, dt n 0.08, 0.02, 0.005: u %.3e %.3e %.3e, p %.3e %.3e %.3e\n",
+              one.u, fine.u, finest.u, one.p, fine.p, finest.p);
+  EXPECT_NEAR(finest.u / fine.u, 1, 1e-3);
+  EXPECT_NEAR(finest.p / fine.p, 1, 1e-3);
+  EXPECT_LE(finest.u / one.u, 1.05);
+  EXPECT_LE(finest.p / one.p, 1.2);
+}
+
 }  // namespace
 }  // namespace fsi
