@@ -1,0 +1,115 @@
+// Exact flows between walls on tetrahedra: Ethier and Steinman's, and a vortex beside slip.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/read.hpp"
+#include "libfsi/solver/solver.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Real pi = std::numbers::pi;
+
+struct Flow {
+  std::function<Vec3(const Vec3&, Real)> u;
+  std::function<Real(const Vec3&, Real)> p;
+};
+
+struct Errors {
+  Real u = 0, p = 0;  ///< root mean squares, u as a part of the exact one
+};
+
+// [Ethier94]: u = -a (e^ax sin(ay + dz) + e^az cos(ax + dy)) e^(-nu d^2 t), y and z in a circle.
+Flow ethier_steinman(Real nu) {
+  constexpr Real a = pi / 4, d = pi / 2;
+  const auto part = [](Real x, Real y, Real z) {
+    return -a *
+           (std::exp(a * x) * std::sin(a * y + d * z) + std::exp(a * z) * std::cos(a * x + d * y));
+  };
+  const auto square = [](Real x, Real y, Real z) {
+    return std::exp(2 * a * x) +
+           2 * std::sin(a * x + d * y) * std::cos(a * z + d * x) * std::exp(a * (y + z));
+  };
+  return {[=](const Vec3& x, Real t) {
+            return std::exp(-nu * d * d * t) *
+                   Vec3{part(x.x, x.y, x.z), part(x.y, x.z, x.x), part(x.z, x.x, x.y)};
+          },
+          [=](const Vec3& x, Real t) {
+            return -a * a / 2 * std::exp(-2 * nu * d * d * t) *
+                   (square(x.x, x.y, x.z) + square(x.y, x.z, x.x) + square(x.z, x.x, x.y));
+          }};
+}
+
+Flow taylor_green(Real nu) {
+  constexpr Real k = 2 * pi;
+  return {[=](const Vec3& x, Real t) {
+            return std::exp(-2 * nu * k * k * t) * Vec3{std::sin(k * x.x) * std::cos(k * x.y),
+                                                        -std::cos(k * x.x) * std::sin(k * x.y), 0};
+          },
+          [=](const Vec3& x, Real t) {
+            return std::exp(-4 * nu * k * k * t) * (std::cos(2 * k * x.x) + std::cos(2 * k * x.y)) /
+                   4;
+          }};
+}
+
+Errors errors(const Solver& solver, const Flow& flow, Real dt) {
+  const Mesh& mesh = solver.mesh();
+  const State& state = solver.state();
+  const auto off = [&](Index c) { return state.p[c] - flow.p(mesh.C[c], state.t - dt / 2); };
+  std::array<Sum, 4> sums;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Vec3 exact = flow.u(mesh.C[c], state.t);
+    sums[0].add(mesh.V[c] * norm2(state.u[c] - exact)), sums[1].add(mesh.V[c] * norm2(exact));
+    sums[2].add(mesh.V[c] * off(c)), sums[3].add(mesh.V[c]);
+  }
+  const Real volume = sums[3].total(), mean = sums[2].total() / volume;
+  Sum square;
+  for (Index c = 0; c < mesh.n_owned; ++c) square.add(mesh.V[c] * std::pow(off(c) - mean, 2));
+  return {std::sqrt(sums[0].total() / sums[1].total()), std::sqrt(square.total() / volume)};
+}
+
+Errors run(const std::string& name, const Flow& flow, bool slip, Real nu, Real end) {
+  const Mesh mesh =
+      read_mesh({.file = std::string(FSI_MESHES) + "/" + name + ".msh", .periodic = {}});
+  Conditions sides;
+  for (const Patch& patch : mesh.patches)
+    sides[patch.name] = slip ? Condition{Slip{}} : Condition{FixedVelocity{flow.u}};
+  Solver solver(mesh, {.rho = 1, .mu_f = nu}, {.conditions = sides});
+  solver.start([&](const Vec3& x) { return flow.u(x, 0); });
+  const int steps = static_cast<int>(std::ceil(end / solver.advective_dt(0.5)));
+  for (int i = 0; i < steps; ++i) solver.step(end / steps);
+  const Errors off = errors(solver, flow, end / steps);
+  std::printf("%s, %lld cells, %d steps: u %.2e, p %.2e\n", name.c_str(),
+              static_cast<long long>(mesh.n_global), steps, off.u, off.p);
+  return off;
+}
+
+void expect_orders(const Flow& flow, bool slip, Real nu, Real end) {
+  std::vector<Errors> all;
+  for (const char* name : {"box6", "box12", "box24"}) all.push_back(run(name, flow, slip, nu, end));
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const Real u = std::log2(all[i - 1].u / all[i].u), p = std::log2(all[i - 1].p / all[i].p);
+    std::printf("orders: u %.2f, p %.2f\n", u, p);
+    EXPECT_GE(u, 1.8);
+    EXPECT_GE(p, 1);
+  }
+}
+
+TEST(Exact, EthierSteinmanIsOfSecondOrder) {
+  expect_orders(ethier_steinman(0.05), false, 0.05, 0.2);
+}
+TEST(Exact, TaylorGreenBesideSlipIsOfSecondOrder) {
+  expect_orders(taylor_green(0.01), true, 0.01, 1);
+}
+
+}  // namespace
+}  // namespace fsi
