@@ -128,6 +128,7 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
       open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
       adjustable_[f - mesh.n_internal] = prescribes_flow(conditions[i]) ? 1 : 0;
     }
+  if (weights.uneven) oblique_rest_.emplace(mesh);
   Sum area;
   for (Index b = 0; b < mesh.n_boundary(); ++b)
     if (adjustable_[b] != 0) area.add(norm(mesh.Sf[mesh.n_internal + b]));
@@ -222,6 +223,20 @@ void Projection::subtract_gradient(FaceField<Real>& phi, const CellField<Real>& 
   }
 }
 
+// r = k . ((grad q)_f - (grad q')_f), times rho_0 / rho_f
+void Projection::add_to_oblique_rest(Real sign) {
+  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
+    const Index f = weights_.irregular[i];
+    if (f < mesh_.n_internal || open_face_[f - mesh_.n_internal] != 0)
+      (*oblique_rest_)[f] += sign * mobility(f) * dot(grad_f_[i], weights_.k[f]);
+  }
+}
+
+void Projection::subtract_oblique_rest(FaceField<Real>& excess) const {
+  if (!oblique_rest_) return;
+  for (const Index f : weights_.irregular) excess[f] -= (*oblique_rest_)[f];
+}
+
 // A constant added to q changes the flux through the openings alone. The constant that leaves no
 // net flux corrects what the solver's tolerance has left.
 void Projection::close_balance(FaceField<Real>& phi, CellField<Real>& q) const {
@@ -257,7 +272,9 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   }
   subtract_gradient(phi, q, q_b);
   close_balance(phi, q);
+  if (oblique_rest_) oblique_rest_->fill(0), add_to_oblique_rest(-1);
   set_gradient(grad_q, q, q_b);
+  if (oblique_rest_) add_to_oblique_rest(1);
   if (density_ != nullptr)
     for (Index c = 0; c < mesh_.n_cells; ++c)
       grad_q[c] = density_->rho_0() * density_->divided(grad_q[c], c);

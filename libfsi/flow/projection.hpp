@@ -108,6 +108,12 @@ class Projection {
   /// and halo, p_b: at openings.
   void set_gradient(CellField<Vec3>& grad, const CellField<Real>& p,
                     const BoundaryField<Real>& p_b);
+  /// Subtracts from e_f the part r_f = k . ((grad q)_f - (grad q')_f) of the last `project`, with
+  /// q' of the solve before the last one. The last solve takes (grad q')_f, and the pressure that
+  /// follows from q has (grad q)_f. So r_f is no excess that this pressure would hold.
+  void subtract_oblique_rest(FaceField<Real>& excess) const;
+  /// r_f of every face, part of a checkpoint; none on meshes without irregular faces.
+  std::optional<FaceField<Real>>& oblique_rest() { return oblique_rest_; }
   /// At irregular faces, of the last `set_gradient`; `project` overwrites it.
   const std::vector<Vec3>& face_gradient() const { return grad_f_; }
   /// A given pressure counts as a value; on all other patches it is extrapolated to the boundary.
@@ -124,6 +130,8 @@ class Projection {
   void add_oblique_outflow();
   void subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
                          const BoundaryField<Real>& q_b) const;
+  /// Before and after the gradient of the last q.
+  void add_to_oblique_rest(Real sign);
   void balance_boundary(FaceField<Real>& phi) const;
   void close_balance(FaceField<Real>& phi, CellField<Real>& q) const;
   /// Sets the matrix and the conductance of the openings.
@@ -144,6 +152,7 @@ class Projection {
   PressureStencil stencil_;
   CellField<Vec3> first_;     // the plain gradient, on irregular meshes
   std::vector<Vec3> grad_f_;  // at irregular faces
+  std::optional<FaceField<Real>> oblique_rest_;
   std::vector<Real> b_;
   LinearSystem system_;
   std::optional<FaceMatrix> matrix_;  // with a density

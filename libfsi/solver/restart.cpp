@@ -22,6 +22,7 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("u", state_.u);
   snapshot.add("p", state_.p);
   snapshot.add("phi", state_.phi);
+  if (auto& rest = projection_.oblique_rest()) snapshot.add("oblique_rest", *rest);
   auto& [last, before, rest] = momentum_.history();
   snapshot.add("convection", last);
   snapshot.add("convection_before", before);

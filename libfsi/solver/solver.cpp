@@ -220,6 +220,7 @@ void Solver::set_flux_excess(const State& state) {
   if (projection_.orthogonal()) return;
   flow::set_flux_excess(excess_, state.phi, state.u, L_f_, weights_, mesh_);
   openings_.set_flux_excess(excess_, state.phi, state.u, L_f_, weights_);
+  projection_.subtract_oblique_rest(excess_);
 }
 
 void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {

@@ -63,7 +63,7 @@ TEST(ShortSteps, TimeIsOfSecondOrder) {
     const Real first = difference(a, b), second = difference(b, c), third = difference(c, d);
     std::printf("%s: u changes by %.2e, %.2e, %.2e, orders %.2f, %.2f\n", scene.name, first, second,
                 third, std::log2(first / second), std::log2(second / third));
-    EXPECT_GE(std::log2(first / third), scene.simplex && scene.open ? 3.1 : 3.7);
+    EXPECT_GE(std::log2(first / third), 3.8);
   }
 }
 
