@@ -225,6 +225,7 @@ void Projection::subtract_gradient(FaceField<Real>& phi, const CellField<Real>& 
 
 // r = k . ((grad q)_f - (grad q')_f), times rho_0 / rho_f
 void Projection::add_to_oblique_rest(Real sign) {
+  if (!oblique_rest_) return;
   for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
     const Index f = weights_.irregular[i];
     if (f < mesh_.n_internal || open_face_[f - mesh_.n_internal] != 0)
@@ -272,9 +273,10 @@ SolveResult Projection::project(FaceField<Real>& phi, CellField<Real>& q, CellFi
   }
   subtract_gradient(phi, q, q_b);
   close_balance(phi, q);
-  if (oblique_rest_) oblique_rest_->fill(0), add_to_oblique_rest(-1);
+  if (oblique_rest_) oblique_rest_->fill(0);
+  add_to_oblique_rest(-1);
   set_gradient(grad_q, q, q_b);
-  if (oblique_rest_) add_to_oblique_rest(1);
+  add_to_oblique_rest(1);
   if (density_ != nullptr)
     for (Index c = 0; c < mesh_.n_cells; ++c)
       grad_q[c] = density_->rho_0() * density_->divided(grad_q[c], c);

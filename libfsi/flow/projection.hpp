@@ -130,7 +130,7 @@ class Projection {
   void add_oblique_outflow();
   void subtract_gradient(FaceField<Real>& phi, const CellField<Real>& q,
                          const BoundaryField<Real>& q_b) const;
-  /// Before and after the gradient of the last q.
+  /// To r_f its half of the last `face_gradient`: -1 before (grad q)_f is set, 1 after.
   void add_to_oblique_rest(Real sign);
   void balance_boundary(FaceField<Real>& phi) const;
   void close_balance(FaceField<Real>& phi, CellField<Real>& q) const;
