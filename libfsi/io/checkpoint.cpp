@@ -275,7 +275,7 @@ void Checkpoint::load(const std::string& file, const Snapshot& snapshot) const {
   share_scalars(snapshot);
 }
 
-void Checkpoint::read(const Snapshot& snapshot) {
+void Checkpoint::read(const Snapshot& snapshot, const std::string& advice) {
   std::string sound, damaged;
   if (rank() == 0)
     sound = newest_sound(directory_, [&](const std::string& file, const std::string& reason) {
@@ -289,9 +289,7 @@ void Checkpoint::read(const Snapshot& snapshot) {
   if (sound.empty() && !damaged.empty())
     throw Error(ErrorKind::io, "all checkpoints are damaged: " + damaged);
   require(!sound.empty(),
-          "there is no checkpoint in \"" + directory_ +
-              "\" to go on from; leave out -restart, or choose its -output_dir (a run that "
-              "reaches its end keeps one only with -checkpoint_interval)");
+          "there is no checkpoint in \"" + directory_ + "\" to go on from; " + advice);
   load(sound, snapshot);
   file_ = sound;
 }

@@ -81,7 +81,8 @@ class Checkpoint {
   /// sound; damaged ones are named in a warning and set aside. On return the halo cells are set
   /// too. Errors: Error{input} when there is none, or it is of another mesh, identity or list of
   /// names; Error{io} when all are damaged.
-  void read(const Snapshot& snapshot);
+  /// advice: what the sentence says to do where there is none.
+  void read(const Snapshot& snapshot, const std::string& advice = "choose another folder");
 
   /// The file last written or read; "" before.
   const std::string& file() const { return file_; }

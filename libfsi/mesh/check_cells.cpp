@@ -63,7 +63,8 @@ void flatten(RawMesh& raw) {
           raw.file +
               " holds no volume elements, and its surface elements do not lie in one plane "
               "z = const: z goes from " +
-              print("%.6g to %.6g", low.z, high.z));
+              print("%.6g to %.6g", low.z, high.z) +
+              "; a volume of gmsh is meshed with -3 and needs a Physical Volume");
   for (Vec3& x : raw.points) x.z = 0;
 }
 

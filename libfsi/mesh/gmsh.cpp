@@ -360,6 +360,12 @@ RawMesh parse_gmsh(const std::string& file, std::string text) {
 }
 
 RawMesh read_gmsh(const std::string& file) {
+  for (const char* geometry : {".geo", ".geo_unrolled", ".step", ".stp", ".brep", ".stl"})
+    if (file.ends_with(geometry))
+      throw Error(ErrorKind::input,
+                  "mesh file \"" + file +
+                      "\" is a geometry, not a mesh: gmsh -3 -bin makes a mesh of it "
+                      "(-2 in two dimensions)");
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in || std::filesystem::is_directory(file))
     throw Error(ErrorKind::input, "mesh file \"" + file + "\" cannot be opened, or it is a folder");

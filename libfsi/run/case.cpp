@@ -4,9 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <set>
-#include <sstream>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -196,15 +193,6 @@ std::vector<std::string> walls_of(const Conditions& conditions, const Mesh& mesh
   return walls;
 }
 
-/// Lines "name value".
-std::map<std::string, std::string> lines(const std::string& text) {
-  std::map<std::string, std::string> items;
-  std::istringstream stream(text);
-  for (std::string name, value; stream >> name && std::getline(stream >> std::ws, value);)
-    items[name] = value;
-  return items;
-}
-
 /// With -restart_divide the cells that the solids of the newest checkpoint fill at least half.
 void share_as_in_checkpoint(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
                             const OutputSetup& output) {
@@ -216,13 +204,6 @@ void share_as_in_checkpoint(MeshOptions& mesh, const std::vector<SolidSetup>& so
     for (Real& load : loads) load = load >= 0.5 ? 1 : 0;
     return loads;
   };
-}
-
-/// Whether an option sets the solid's shape or place at the start.
-bool of_undeformed_solid(const std::string& name) {
-  constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
-  return name.starts_with("solid") &&
-         std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
 }
 
 }  // namespace
@@ -247,44 +228,17 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   result.solids = read_solids(options, result.physics);
   result.time = read_time(options);
   result.output = read_output(options, driver);
+  result.driver = driver;
+  result.flow_from = options.text(
+      "flow_from", "",
+      "folder of a run without solids on the same mesh: begin with the flow of its newest "
+      "checkpoint, and at its time");
   share_solids(result.mesh, result.solids);
   share_as_in_checkpoint(result.mesh, result.solids, result.output);
   check_intervals(result.output, result.time.end);
   require(options.help() || !result.mesh.file.empty(),
           "option -mesh is missing: the gmsh file of the geometry");
   return result;
-}
-
-std::string simulated(const Options& options) {
-  constexpr std::array not_simulated{
-      "mesh",  "petscpartitioner", "time_",         "output_",        "sample_",
-      "check", "restart",          "max_wall_time", "end_when_empty", "describe_step"};
-  std::string text;
-  for (const auto& [name, value] : options.values()) {
-    const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
-    if (std::ranges::none_of(not_simulated, begins))
-      text.append(name).append(" ").append(value).append("\n");
-  }
-  return text;
-}
-
-std::string differences(const std::string& before, const std::string& now) {
-  const std::map<std::string, std::string> old = lines(before), current = lines(now);
-  std::set<std::string> names;
-  for (const auto* side : {&old, &current})
-    for (const auto& item : *side) names.insert(item.first);
-  std::string text, undeformed;
-  for (const std::string& name : names) {
-    const auto was = old.find(name), is = current.find(name);
-    if (was != old.end() && is != current.end() && was->second == is->second) continue;
-    std::string& list = of_undeformed_solid(name) ? undeformed : text;
-    list += (list.empty() ? "-" : ", -") + name + " ";
-    list += is == current.end() ? "left out" : is->second;
-    list += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
-  }
-  require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
-                                  undeformed + "; give what was given there");
-  return text.empty() ? "" : "goes on with other values than those of the checkpoint: " + text;
 }
 
 void tell_of_inertia(const Case& setup, Real length, Real velocity) {

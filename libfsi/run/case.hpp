@@ -52,6 +52,8 @@ struct Case {
   std::vector<SolidSetup> solids;  ///< in the order of their names
   TimeSetup time;                  ///< end and length of steps
   OutputSetup output;              ///< what is written
+  std::string driver;              ///< its name, without fsi-
+  std::string flow_from;           ///< folder of the run whose flow this one begins with; "": none
 };
 
 /// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
@@ -61,7 +63,8 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
 std::vector<std::string> solids_without_shape(const Options& options);
 /// A solid's shape in the mesh: in 2-D the section through its centre, for any z of the centre.
 shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s);
-/// Collective. Puts all of them into the fluid. Errors: those of Solver::put_solid.
+/// Collective. Puts all of them into the fluid, which begins as in Case::flow_from if there is one
+/// and the run is no restart. Errors: those of Solver::put_solid and of `start_from_other_run`.
 void put_solids(Solver& solver, const Case& setup);
 
 /// Reads and checks the common options. `path`: the path of solids in this driver's flow, the
@@ -72,15 +75,6 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path = {
 /// around, which the surface cuts, are then shared well enough. A solid whose place is not known
 /// does not count.
 void share_solids(MeshOptions& mesh, const std::vector<SolidSetup>& solids);
-
-/// The options of the simulated case, a line "name value" for each: all but those of mesh, time and
-/// output.
-std::string simulated(const Options& options);
-
-/// A sentence on the differences between this run's `simulated` and that of the run that it
-/// continues; "" if there are none. Errors: Error{input} if a difference is in the shape or place
-/// of a solid.
-std::string differences(const std::string& before, const std::string& now);
 
 /// Collective. Prints a description of the run: the mesh and its figures, with a warning if one is
 /// past its limit (mesh/figures.hpp), the fluid, and the loads of the openings. Then come the

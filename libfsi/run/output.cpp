@@ -15,6 +15,7 @@
 #include "libfsi/core/signals.hpp"
 #include "libfsi/io/manifest.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/run/continuation.hpp"
 
 namespace fsi {
 namespace {
@@ -52,6 +53,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
     checkpoints_.clear();
     checkpoint_.resume(solver_.state().t);  // the start needs none
     samples_.resume(solver_.state().t, "none");
+    if (!setup.flow_from.empty()) tell_of_changes(changes_of_flow(solver_, setup, simulated_));
     solver_.report().rejected = 0, solver_.report().rejections.clear();
   }
   tell_of_solids(solver_);
@@ -120,27 +122,23 @@ std::string Output::where() const {
 
 void Output::go_on_from_checkpoint() {
   const std::string now = simulated_;
-  checkpoints_.read(snapshot());
+  checkpoints_.read(snapshot(),
+                    "leave out -restart, or choose its -output_dir (a run that reaches its end "
+                    "keeps one only with -checkpoint_interval)");
   const std::string notice = differences(simulated_, now);
   simulated_ = now;
   solver_.resume();
   saved_step_ = solver_.state().step;
   samples_.resume(solver_.state().t, samples_text_);
   for (Schedule* event : {&field_, &checkpoint_}) event->resume(solver_.state().t);
+  tell_of_changes(notice);
   if (rank() != 0) return;
-  if (!notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
   std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
               static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
 }
 
 io::Snapshot Output::snapshot() {
-  std::string identity = "driver=" + driver_ + " solid=" + (solver_.body() ? "yes" : "no");
-  for (const Body& body : solver_.bodies())
-    identity += (body.name.empty() ? " " : " " + body.name + ".") +
-                "kinematics=" + name_of(body.kinematics) + (body.memory ? "+memory" : "");
-  if (const Vec3& v = case_.flow.frame; norm(v) > 0)
-    identity += print(" frame=%g,%g,%g", v.x, v.y, v.z);
-  io::Snapshot all(identity);
+  io::Snapshot all(identity(driver_, case_, solver_.bodies()));
   all.add("simulated", &simulated_);
   solver_.list(all);
   energy_.list(all);
@@ -390,9 +388,9 @@ RunStatus Output::finish() {
   const std::string on = interrupted_ ? where() + ", and -restart goes on from it" : "";
   if (!failure.empty()) throw Error(ErrorKind::numerics, failure + where());
   if (rank() == 0)
-    std::printf("%s at t = %g after %lld steps in %.1f s; files in %s%s\n",
+    std::printf("%s at t = %g after %s in %.1f s; files in %s%s\n",
                 interrupted_ ? "interrupted" : "complete", solver_.state().t,
-                static_cast<long long>(solver_.state().step), stopwatch_.seconds(),
+                text_of_steps(solver_.state().step, first_step_).c_str(), stopwatch_.seconds(),
                 case_.output.directory.c_str(), on.c_str());
   return interrupted_ ? RunStatus::interrupted : RunStatus::complete;
 }

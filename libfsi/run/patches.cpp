@@ -77,7 +77,7 @@ class PatchOptions {
     require(!text.empty(), "option -" + of(key) + " is missing: " + help);
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
-    return series(text, period, {key, symbol, "value"});
+    return series(text, period, {key, symbol, "value"}, of(key));
   }
 
   Condition wall() {
@@ -112,7 +112,7 @@ class PatchOptions {
       return FixedVelocity{[=](const Vec3&, Real t) { return factor(t) * u; }, factor};
     std::vector<VelocityTable::Row> rows;
     for (const std::vector<Real>& row :
-         read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}}))
+         read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}}, of("velocity_file")))
       rows.push_back({.x = {row[0], row[1], row[2]}, .u = {row[3], row[4], row[5]}});
     table_ = std::make_shared<const VelocityTable>(file, std::move(rows));
     return FixedVelocity{

@@ -8,6 +8,7 @@
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/run/case.hpp"
+#include "libfsi/run/continuation.hpp"
 #include "libfsi/solid/law/laws.hpp"
 
 namespace fsi {
@@ -229,6 +230,7 @@ shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s) {
 }
 
 void put_solids(Solver& solver, const Case& setup) {
+  if (!setup.flow_from.empty() && !setup.output.restart) start_from_other_run(solver, setup);
   for (const SolidSetup& s : setup.solids) {
     Solid solid = s.solid;
     solid.shape = shape_in(solver.mesh(), s);

@@ -12,6 +12,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
 namespace {
@@ -21,14 +22,15 @@ constexpr std::string_view blanks = " \t\r";
 bool one_of(char c, std::string_view set) { return set.find(c) != std::string_view::npos; }
 
 /// Collective. The text of a file as rank 0 reads it, without the mark that some editors put first.
-std::string text_of(const std::string& file) {
+std::string text_of(const std::string& file, const std::string& option) {
   std::string text = "?";
   std::error_code code;
   if (rank() == 0 && !std::filesystem::is_directory(file, code))
     if (std::ifstream stream(file); stream)
       text = std::string(std::istreambuf_iterator<char>(stream), {});
   text = broadcast(text);
-  require(text != "?", "cannot read the file \"" + file + "\"");
+  require(text != "?", (option.empty() ? "" : "option -" + option + ": ") +
+                           "cannot read the file \"" + file + "\"");
   constexpr std::string_view mark = "\xef\xbb\xbf";
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
@@ -88,8 +90,9 @@ void check_header(const std::string& file, const std::string& header,
 }  // namespace
 
 std::vector<std::vector<Real>> read_rows(const std::string& file,
-                                         const std::vector<ColumnNames>& columns) {
-  std::istringstream stream(text_of(file));
+                                         const std::vector<ColumnNames>& columns,
+                                         const std::string& option) {
+  std::istringstream stream(text_of(file, option));
   std::vector<std::vector<Real>> rows;
   bool headed = false;
   for (std::string line; std::getline(stream, line);) {
@@ -115,13 +118,16 @@ std::vector<std::vector<Real>> read_rows(const std::string& file,
   return rows;
 }
 
-OfTime series(const std::string& file, Real period, const ColumnNames& value) {
-  const std::vector<std::vector<Real>> rows = read_rows(file, {{"t", "time"}, value});
+OfTime series(const std::string& file, Real period, const ColumnNames& value,
+              const std::string& option) {
+  const std::vector<std::vector<Real>> rows = read_rows(file, {{"t", "time"}, value}, option);
   for (std::size_t i = 1; i < rows.size(); ++i)
     require(rows[i][0] > rows[i - 1][0],
             "file \"" + file + "\": its times must grow from row to row");
   require(period == 0 || period >= rows.back()[0] - rows.front()[0],
-          "file \"" + file + "\" is longer than its period");
+          "file \"" + file +
+              print("\" is longer than its period: its times go from %g to %g, the period is %g",
+                    rows.front()[0], rows.back()[0], period));
   const auto at = [rows, period](Real t) {
     const Real start = rows.front()[0];
     if (period > 0) t = start + (t - start) - period * std::floor((t - start) / period);

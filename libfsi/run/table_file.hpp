@@ -15,14 +15,16 @@ using ColumnNames = std::vector<std::string>;
 /// Collective. The numbers of a csv file, row by row, one for each of `columns`, with a comma, a
 /// semicolon or blanks between them. Empty lines and those that begin with # are left out. One line
 /// of names may come before the numbers. Then every column must have one of its own; upper or lower
-/// case and text in brackets do not matter. Errors: Error{input} that names the file, and the line
-/// or column.
+/// case and text in brackets do not matter. option: that gives the file. Errors: Error{input} that
+/// names the file, and the option, line or column.
 std::vector<std::vector<Real>> read_rows(const std::string& file,
-                                         const std::vector<ColumnNames>& columns);
+                                         const std::vector<ColumnNames>& columns,
+                                         const std::string& option = "");
 
 /// Collective. The second column over the first, which is `t` or `time`; straight lines between the
 /// rows, the first and last value beyond them; period > 0: repeated with it. value: names of the
-/// second. Errors: Error{input}.
-OfTime series(const std::string& file, Real period = 0, const ColumnNames& value = {});
+/// second; option: as above. Errors: Error{input}.
+OfTime series(const std::string& file, Real period = 0, const ColumnNames& value = {},
+              const std::string& option = "");
 
 }  // namespace fsi

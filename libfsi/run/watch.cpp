@@ -149,7 +149,8 @@ void Watch::reynolds(Real number) {
   told_of_turbulence_ = true;
   say("warning", print("the Reynolds number of the openings is %.3g (column reynolds of flow.csv): "
                        "beyond %.0f a vessel's flow is turbulent, and nothing here models that; if "
-                       "it ought to be less, look at the units of density, viscosity and pressure",
+                       "it ought to be less, look at the units of density, viscosity, and of the "
+                       "pressures, velocities and flow rates of the patches",
                        number, turbulent));
 }
 

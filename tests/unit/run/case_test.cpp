@@ -1,6 +1,7 @@
 // Solids as a case has them, put into a mesh.
 
 #include "libfsi/run/case.hpp"
+#include "libfsi/run/continuation.hpp"
 
 #include <gtest/gtest.h>
 

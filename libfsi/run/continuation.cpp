@@ -1,0 +1,126 @@
+#include "libfsi/run/continuation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "libfsi/core/error.hpp"
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/io/checkpoint.hpp"
+#include "libfsi/mesh/figures.hpp"
+
+namespace fsi {
+namespace {
+
+/// Lines "name value".
+std::map<std::string, std::string> lines(const std::string& text) {
+  std::map<std::string, std::string> items;
+  std::istringstream stream(text);
+  for (std::string name, value; stream >> name && std::getline(stream >> std::ws, value);)
+    items[name] = value;
+  return items;
+}
+
+/// Whether an option sets the solid's shape or place at the start.
+bool of_undeformed_solid(const std::string& name) {
+  constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
+  return name.starts_with("solid") &&
+         std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
+}
+
+/// Without the lines that begin with "solid".
+std::string of_flow(const std::string& simulated) {
+  std::string text;
+  for (const auto& [name, value] : lines(simulated))
+    if (!name.starts_with("solid")) text.append(name).append(" ").append(value).append("\n");
+  return text;
+}
+
+void read_flow(io::Checkpoint& checkpoint, const io::Snapshot& snapshot) {
+  checkpoint.read(snapshot,
+                  "-flow_from takes the folder of a run without solids that had a "
+                  "-checkpoint_interval");
+}
+
+}  // namespace
+
+std::string simulated(const Options& options) {
+  constexpr std::array not_simulated{
+      "mesh",    "petscpartitioner", "time_",          "output_",       "sample_",  "check",
+      "restart", "max_wall_time",    "end_when_empty", "describe_step", "flow_from"};
+  std::string text;
+  for (const auto& [name, value] : options.values()) {
+    const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
+    if (std::ranges::none_of(not_simulated, begins))
+      text.append(name).append(" ").append(value).append("\n");
+  }
+  return text;
+}
+
+std::string differences(const std::string& before, const std::string& now) {
+  const std::map<std::string, std::string> old = lines(before), current = lines(now);
+  std::set<std::string> names;
+  for (const auto* side : {&old, &current})
+    for (const auto& item : *side) names.insert(item.first);
+  std::string text, undeformed;
+  for (const std::string& name : names) {
+    const auto was = old.find(name), is = current.find(name);
+    if (was != old.end() && is != current.end() && was->second == is->second) continue;
+    std::string& list = of_undeformed_solid(name) ? undeformed : text;
+    list += (list.empty() ? "-" : ", -") + name + " ";
+    list += is == current.end() ? "left out" : is->second;
+    list += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
+  }
+  require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
+                                  undeformed + "; give what was given there");
+  return text.empty() ? "" : "goes on with other values than those of the checkpoint: " + text;
+}
+
+std::string identity(const std::string& driver, const Case& setup, const std::deque<Body>& bodies) {
+  std::string text = "driver=" + driver + " solid=" + (bodies.empty() ? "no" : "yes");
+  for (const Body& body : bodies)
+    text += (body.name.empty() ? " " : " " + body.name + ".") +
+            "kinematics=" + name_of(body.kinematics) + (body.memory ? "+memory" : "");
+  if (const Vec3& v = setup.flow.frame; norm(v) > 0)
+    text += print(" frame=%g,%g,%g", v.x, v.y, v.z);
+  return text;
+}
+
+void start_from_other_run(Solver& solver, const Case& setup) {
+  io::Snapshot flow(identity(setup.driver, setup, {}));
+  solver.list(flow);
+  io::Checkpoint checkpoint(setup.flow_from, solver.mesh());
+  read_flow(checkpoint, flow);
+  solver.resume();
+  const Real t = solver.state().t;
+  require(t < setup.time.end,
+          print("option -flow_from: that flow is of t = %g, from where this run "
+                "goes on; -time_end %g is not behind it",
+                t, setup.time.end));
+  if (rank() == 0)
+    std::printf("the flow is that of \"%s\", t = %g\n", checkpoint.file().c_str(), t);
+}
+
+std::string changes_of_flow(const Solver& solver, const Case& setup, const std::string& now) {
+  std::string before;
+  io::Snapshot words(identity(setup.driver, setup, {}));
+  words.add("simulated", &before);
+  io::Checkpoint checkpoint(setup.flow_from, solver.mesh());
+  read_flow(checkpoint, words);
+  return differences(of_flow(before), of_flow(now));
+}
+
+void tell_of_changes(const std::string& sentence) {
+  if (rank() == 0 && !sentence.empty()) std::fprintf(stderr, "fsi: notice: %s\n", sentence.c_str());
+}
+
+std::string text_of_steps(std::int64_t all, std::int64_t first) {
+  const std::string text = print("%lld steps", static_cast<long long>(all));
+  if (first == 0) return text;
+  return text + print(", %lld of them in this run,", static_cast<long long>(all - first));
+}
+
+}  // namespace fsi
