@@ -8,6 +8,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "tests/unit/support/box_mesh.hpp"
 #include "tests/unit/support/flow_errors.hpp"
+#include "tests/unit/support/kovasznay.hpp"
 
 namespace fsi {
 namespace {
@@ -51,23 +52,7 @@ TEST(ExactFlows, TaylorGreenOrder) {
 }
 
 Errors kovasznay(Index n, Real courant = 0.2) {
-  constexpr Real nu = 1.0 / 40;
-  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
-  const auto u = [lam](const Vec3& y) {
-    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
-    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
-                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
-  };
-  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
-  const Mesh mesh = test::box_mesh({.n = {n, n, 0}});
-  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
-  Solver solver(
-      mesh, {.rho = 1, .mu_f = nu},
-      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
-  solver.start(u);
-  const Real dt = courant / n;
-  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
-  return errors(solver, u, p);
+  return test::kovasznay::run(test::box_mesh({.n = {n, n, 0}}), courant / n);
 }
 
 TEST(ExactFlows, KovasznayOrder) {

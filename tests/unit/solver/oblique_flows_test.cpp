@@ -9,6 +9,7 @@
 
 #include "tests/unit/support/box_file.hpp"
 #include "tests/unit/support/flow_errors.hpp"
+#include "tests/unit/support/kovasznay.hpp"
 
 namespace fsi {
 namespace {
@@ -17,24 +18,6 @@ constexpr Real pi = std::numbers::pi;
 
 using test::Errors;
 using test::errors;
-
-Errors kovasznay(const Mesh& mesh, Real dt) {
-  constexpr Real nu = 1.0 / 40;
-  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
-  const auto u = [lam](const Vec3& y) {
-    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
-    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
-                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
-  };
-  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
-  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
-  Solver solver(
-      mesh, {.rho = 1, .mu_f = nu},
-      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
-  solver.start(u);
-  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
-  return errors(solver, u, p);
-}
 
 Mesh bent(Index n, bool simplex, bool bend) {
   test::BoxFile box{.n = {n, n, 0}, .simplex = simplex};
@@ -49,8 +32,8 @@ Mesh bent(Index n, bool simplex, bool bend) {
 /// Order of u and p between 16 and 32 cells per side, at a Courant number of about 0.4.
 void expect_orders(const char* name, bool simplex, bool bend, Real u_order) {
   const Real part = simplex ? 0.08 : 0.2;
-  const Errors a = kovasznay(bent(16, simplex, bend), part / 16),
-               b = kovasznay(bent(32, simplex, bend), part / 32);
+  const Errors a = test::kovasznay::run(bent(16, simplex, bend), part / 16),
+               b = test::kovasznay::run(bent(32, simplex, bend), part / 32);
   const Real u = std::log2(a.u / b.u), p = std::log2(a.p / b.p);
   if (rank() == 0)
     std::printf("Kovasznay, %s: u %.3e %.3e order %.2f, p %.3e %.3e order %.2f\n", name, a.u, b.u,

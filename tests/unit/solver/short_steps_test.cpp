@@ -11,6 +11,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "tests/unit/support/box_file.hpp"
 #include "tests/unit/support/flow_errors.hpp"
+#include "tests/unit/support/kovasznay.hpp"
 
 namespace fsi {
 namespace {
@@ -69,22 +70,7 @@ TEST(ShortSteps, TimeIsOfSecondOrder) {
 
 /// Kovasznay's flow on 16 x 16 squares cut in two, at t = 3.
 test::Errors kovasznay(Real dt) {
-  constexpr Real nu = 1.0 / 40;
-  const Real lam = 1 / (2 * nu) - std::sqrt(1 / (4 * nu * nu) + 4 * pi * pi);
-  const auto u = [lam](const Vec3& y) {
-    const Vec3 x{y.x - 0.5, y.y - 0.5, 0};
-    return Vec3{1 - std::exp(lam * x.x) * std::cos(2 * pi * x.y),
-                lam / (2 * pi) * std::exp(lam * x.x) * std::sin(2 * pi * x.y), 0};
-  };
-  const auto p = [lam](const Vec3& y) { return (1 - std::exp(2 * lam * (y.x - 0.5))) / 2; };
-  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .simplex = true});
-  const FixedVelocity exact{[&](const Vec3& x, Real) { return u(x); }};
-  Solver solver(
-      mesh, {.rho = 1, .mu_f = nu},
-      {.conditions = {{"left", exact}, {"right", exact}, {"bottom", exact}, {"top", exact}}});
-  solver.start(u);
-  for (int i = 0; i * dt < 3; ++i) solver.step(dt);
-  return test::errors(solver, u, p);
+  return test::kovasznay::run(test::read_box({.n = {16, 16, 0}, .simplex = true}), dt);
 }
 
 // The excess of the flux once fell with the step, and the error of the pressure grew to ten times.

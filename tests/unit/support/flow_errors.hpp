@@ -22,4 +22,16 @@ Errors errors(const Solver& solver, const U& u, const P& p) {
           analysis::norms(mesh, [&](Index c) { return s.p[c] - p(mesh.C[c]) - shift; }).l2};
 }
 
+/// The same against u(x, t) and p(x, t) after a step of dt, with u as a part of the exact one. The
+/// pressure of a step belongs to its middle, t - dt / 2.
+template <class U, class P>
+Errors relative_errors(const Solver& solver, const U& u, const P& p, Real dt) {
+  const Mesh& mesh = solver.mesh();
+  const Real t = solver.state().t;
+  const auto u_now = [&](const Vec3& x) { return u(x, t); };
+  Errors off = errors(solver, u_now, [&](const Vec3& x) { return p(x, t - dt / 2); });
+  off.u /= analysis::norms(mesh, [&](Index c) { return u_now(mesh.C[c]); }).l2;
+  return off;
+}
+
 }  // namespace fsi::test

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -10,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/flow_errors.hpp"
 
 namespace fsi {
 namespace {
@@ -22,10 +21,6 @@ constexpr Real pi = std::numbers::pi;
 struct Flow {
   std::function<Vec3(const Vec3&, Real)> u;
   std::function<Real(const Vec3&, Real)> p;
-};
-
-struct Errors {
-  Real u = 0, p = 0;  ///< root mean squares, u as a part of the exact one
 };
 
 // [Ethier94]: u = -a (e^ax sin(ay + dz) + e^az cos(ax + dy)) e^(-nu d^2 t), y and z in a circle.
@@ -61,23 +56,7 @@ Flow taylor_green(Real nu) {
           }};
 }
 
-Errors errors(const Solver& solver, const Flow& flow, Real dt) {
-  const Mesh& mesh = solver.mesh();
-  const State& state = solver.state();
-  const auto off = [&](Index c) { return state.p[c] - flow.p(mesh.C[c], state.t - dt / 2); };
-  std::array<Sum, 4> sums;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    const Vec3 exact = flow.u(mesh.C[c], state.t);
-    sums[0].add(mesh.V[c] * norm2(state.u[c] - exact)), sums[1].add(mesh.V[c] * norm2(exact));
-    sums[2].add(mesh.V[c] * off(c)), sums[3].add(mesh.V[c]);
-  }
-  const Real volume = sums[3].total(), mean = sums[2].total() / volume;
-  Sum square;
-  for (Index c = 0; c < mesh.n_owned; ++c) square.add(mesh.V[c] * std::pow(off(c) - mean, 2));
-  return {std::sqrt(sums[0].total() / sums[1].total()), std::sqrt(square.total() / volume)};
-}
-
-Errors run(const std::string& name, const Flow& flow, bool slip, Real nu, Real end) {
+test::Errors run(const std::string& name, const Flow& flow, bool slip, Real nu, Real end) {
   const Mesh mesh =
       read_mesh({.file = std::string(FSI_MESHES) + "/" + name + ".msh", .periodic = {}});
   Conditions sides;
@@ -87,14 +66,14 @@ Errors run(const std::string& name, const Flow& flow, bool slip, Real nu, Real e
   solver.start([&](const Vec3& x) { return flow.u(x, 0); });
   const int steps = static_cast<int>(std::ceil(end / solver.advective_dt(0.5)));
   for (int i = 0; i < steps; ++i) solver.step(end / steps);
-  const Errors off = errors(solver, flow, end / steps);
+  const test::Errors off = test::relative_errors(solver, flow.u, flow.p, end / steps);
   std::printf("%s, %lld cells, %d steps: u %.2e, p %.2e\n", name.c_str(),
               static_cast<long long>(mesh.n_global), steps, off.u, off.p);
   return off;
 }
 
 void expect_orders(const Flow& flow, bool slip, Real nu, Real end) {
-  std::vector<Errors> all;
+  std::vector<test::Errors> all;
   for (const char* name : {"box6", "box12", "box24"}) all.push_back(run(name, flow, slip, nu, end));
   for (std::size_t i = 1; i < all.size(); ++i) {
     const Real u = std::log2(all[i - 1].u / all[i].u), p = std::log2(all[i - 1].p / all[i].p);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "libfsi/flow/convection.hpp"
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/flow_errors.hpp"
 
 namespace fsi {
 namespace {
@@ -31,29 +31,9 @@ Vec3 abc(const Vec3& x, Real t) {
                                           std::sin(k * x.y) + std::cos(k * x.x)};
 }
 
-struct Errors {
-  Real u = 0, p = 0;  ///< root mean squares, u as a part of the exact one
-};
+Real abc_pressure(const Vec3& x, Real t) { return -norm2(abc(x, t)) / 2; }
 
-Errors errors(const Solver& solver, Real dt) {
-  const Mesh& mesh = solver.mesh();
-  const State& state = solver.state();
-  const auto p = [&](Index c) { return -norm2(abc(mesh.C[c], state.t - dt / 2)) / 2; };
-  std::array<Sum, 4> sums;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    const Vec3 exact = abc(mesh.C[c], state.t);
-    sums[0].add(mesh.V[c] * norm2(state.u[c] - exact)), sums[1].add(mesh.V[c] * norm2(exact));
-    sums[2].add(mesh.V[c] * (state.p[c] - p(c))), sums[3].add(mesh.V[c]);
-  }
-  const Real mean = sums[2].total() / sums[3].total();
-  Sum square;
-  for (Index c = 0; c < mesh.n_owned; ++c)
-    square.add(mesh.V[c] * std::pow(state.p[c] - p(c) - mean, 2));
-  return {std::sqrt(sums[0].total() / sums[1].total()),
-          std::sqrt(square.total() / sums[3].total())};
-}
-
-Errors run_abc(const std::string& name) {
+test::Errors run_abc(const std::string& name) {
   const Mesh mesh = read_mesh({.file = file(name), .periodic = {}});
   Solver solver(mesh, {.rho = 1, .mu_f = mu}, {});
   solver.start([](const Vec3& x) { return abc(x, 0); });
@@ -61,11 +41,11 @@ Errors run_abc(const std::string& name) {
   constexpr Real end = 0.25;
   const int steps = static_cast<int>(std::ceil(end / solver.advective_dt(0.5)));
   for (int i = 0; i < steps; ++i) solver.step(end / steps);
-  return errors(solver, end / steps);
+  return test::relative_errors(solver, abc, abc_pressure, end / steps);
 }
 
 void expect_orders(const std::string& coarse_name, const std::string& fine_name, Real finer) {
-  const Errors coarse = run_abc(coarse_name), fine = run_abc(fine_name);
+  const test::Errors coarse = run_abc(coarse_name), fine = run_abc(fine_name);
   const Real order = std::log(coarse.u / fine.u) / std::log(finer),
              p_order = std::log(coarse.p / fine.p) / std::log(finer);
   std::printf("ABC flow, %s and %s: u %.2e %.2e order %.2f, p %.2e %.2e order %.2f\n",
