@@ -112,11 +112,13 @@ def pipe():
 
 def ranks():
     figure, ax = panel()
-    series = grouped((f"{row[0].split(' with')[0]}, {row[1]} ranks", t, part)
-                     for row in rows("ranks")
-                     for t, part in zip((0, 1, 3, 5, 10), [first(row[2]), *values(row[4])]))
-    lines(ax, series, "t, dimensionless", "solid cells, largest rank over mean", log="")
-    legend(figure, ax, 2)
+    found = rows("ranks")
+    for column, name, shift in ((2, "at the start", -0.25), (3, "t = 10, kept", 0), (4, "t = 10, divided anew", 0.25)):
+        given = [(i, first(row[column])) for i, row in enumerate(found) if row[column]]
+        ax.bar([i + shift for i, _ in given], [part for _, part in given], 0.25, label=name)
+    ax.set_xticks(range(len(found)), [f"{row[0]}, {row[1]} ranks" for row in found])
+    ax.set(ylabel="solid cells, largest rank over mean")
+    legend(figure, ax, 3)
     return figure
 
 
