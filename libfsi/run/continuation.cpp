@@ -118,7 +118,7 @@ void tell_of_changes(const std::string& sentence) {
 }
 
 std::string text_of_steps(std::int64_t all, std::int64_t first) {
-  const std::string text = print("%lld steps", static_cast<long long>(all));
+  std::string text = print("%lld steps", static_cast<long long>(all));
   if (first == 0) return text;
   return text + print(", %lld of them in this run,", static_cast<long long>(all - first));
 }
