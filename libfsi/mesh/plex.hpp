@@ -9,8 +9,8 @@
 
 namespace fsi {
 
-/// Work of the cell at this centre beyond that of a fluid cell; 0 where there is none.
-using CellLoad = std::function<Real(const Vec3&)>;
+/// Work of the cell at this centre, in a mesh of that dimension, beyond that of a fluid cell.
+using CellLoad = std::function<Real(const Vec3&, int)>;
 /// Collective. The same for a stretch of cells, by their number in the mesh as read: from the
 /// first one on, as many as the second argument says.
 using CellLoads = std::function<std::vector<Real>(Index, Index)>;

@@ -92,7 +92,7 @@ std::vector<std::int32_t> loads_of(const CellList& here, const Stretches& cells,
     }
   } else if (how.load) {
     for (Index c = 0; c < here.n_cells(); ++c) {
-      units.push_back(load_units(how.load(middle(here, c))));
+      units.push_back(load_units(how.load(middle(here, c), here.dim)));
     }
   }
   return units;

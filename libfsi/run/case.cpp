@@ -209,13 +209,14 @@ void share_as_in_checkpoint(MeshOptions& mesh, const std::vector<SolidSetup>& so
 }  // namespace
 
 void share_solids(MeshOptions& mesh, const std::vector<SolidSetup>& solids) {
-  std::vector<shapes::Shape> placed;
+  std::array<std::vector<shapes::Shape>, 2> placed;  // in 2-D, in 3-D
   for (const SolidSetup& s : solids)
-    if (!s.on_path) placed.push_back(s.solid.shape);
-  if (placed.empty()) return;
-  mesh.load = [placed](const Vec3& x) {
+    for (const int dim : {2, 3})
+      if (!s.on_path) placed[dim - 2].push_back(shape_in(dim, s));
+  if (placed[0].empty()) return;
+  mesh.load = [placed](const Vec3& x, int dim) {
     const auto holds = [&](const shapes::Shape& shape) { return shape(x) < 0; };
-    return static_cast<Real>(std::ranges::count_if(placed, holds));
+    return static_cast<Real>(std::ranges::count_if(placed[dim - 2], holds));
   };
 }
 
@@ -258,7 +259,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   const PeakFlow peak =
       velocity == 0 ? peak_flow(setup.flow.conditions, mesh, setup.time.end) : PeakFlow{};
   std::vector<Real> edges;
-  for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh, s), mesh));
+  for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh.dim, s), mesh));
   const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
   const Real force = largest_force(setup.flow.body_force, mesh, setup.time.end);
   if (rank() != 0) return;

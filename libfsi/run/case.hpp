@@ -61,8 +61,9 @@ struct Case {
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
 /// Prefixes of the options of solids whose shape is given as "none".
 std::vector<std::string> solids_without_shape(const Options& options);
-/// A solid's shape in the mesh: in 2-D the section through its centre, for any z of the centre.
-shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s);
+/// A solid's shape in a mesh of dimension 2 or 3: in 2-D the section through its centre, for any z
+/// of the centre.
+shapes::Shape shape_in(int dim, const SolidSetup& s);
 /// Collective. Puts all of them into the fluid, which begins as in Case::flow_from if there is one
 /// and the run is no restart. Errors: those of Solver::put_solid and of `start_from_other_run`.
 void put_solids(Solver& solver, const Case& setup);

@@ -225,15 +225,15 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   return solids;
 }
 
-shapes::Shape shape_in(const Mesh& mesh, const SolidSetup& s) {
-  return mesh.dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
+shapes::Shape shape_in(int dim, const SolidSetup& s) {
+  return dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
 }
 
 void put_solids(Solver& solver, const Case& setup) {
   if (!setup.flow_from.empty() && !setup.output.restart) start_from_other_run(solver, setup);
   for (const SolidSetup& s : setup.solids) {
     Solid solid = s.solid;
-    solid.shape = shape_in(solver.mesh(), s);
+    solid.shape = shape_in(solver.mesh().dim, s);
     solver.put_solid(solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;

@@ -156,7 +156,9 @@ TEST(Division, EveryRankHasItsShareOfALoadWhereverItGoes) {
   block.n = {24, 16, 16};
   MeshOptions options;
   options.along = {1, 0, 0};
-  options.load = [](const Vec3& c) { return norm(c - Vec3{0.3, 0.5, 0.5}) < 0.3 ? 1.0 : 0.0; };
+  options.load = [](const Vec3& c, int /*dim*/) {
+    return norm(c - Vec3{0.3, 0.5, 0.5}) < 0.3 ? 1.0 : 0.0;
+  };
   for (const CellType type : {CellType::hex, CellType::tet}) {
     block.type = type;
     const TextFile file(BlockText(block).text());
