@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
+#include <system_error>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -90,6 +92,11 @@ std::string identity(const std::string& driver, const Case& setup, const std::de
 }
 
 void start_from_other_run(Solver& solver, const Case& setup) {
+  std::error_code code;
+  require(!std::filesystem::equivalent(setup.flow_from, setup.output.directory, code),
+          "option -flow_from: \"" + setup.flow_from +
+              "\" is -output_dir, whose files a new run removes; choose another -output_dir, or go "
+              "on there with -restart in place of -flow_from");
   io::Snapshot flow(identity(setup.driver, setup, {}));
   solver.list(flow);
   io::Checkpoint checkpoint(setup.flow_from, solver.mesh());

@@ -5,7 +5,8 @@
 
 An empty bend goes on by -flow_from as it does by -restart, bit for bit. A sphere put into its flow has
 its first row at that time, and -restart then needs the other folder no more. What differs in fluid and
-patches is told, what differs in the solid is not. Folders without such a flow are refused.
+patches is told, what differs in the solid is not. Folders without such a flow are refused, and so is the
+run's own, whose files would be removed.
 """
 import csv
 import os
@@ -65,6 +66,10 @@ def main():
     os.rename(empty, empty + "_away")
     run(ball, "0.26", "-flow_from", empty, *sphere, "-restart")
     check(float(rows(ball, "solid.csv")[-1]["t"]) == 0.26, "a restart needs the other folder no more")
+    errors, _ = run(whole, "1", "-flow_from", whole, code=2)
+    check(len(errors) == 1 and "is -output_dir" in errors[0] and os.path.exists(os.path.join(whole, "flow.csv")),
+          f"a run does not remove the flow that it begins with: {errors}")
+    run(whole, "0.31", "-restart")
     for of, end, sentence in ((empty, "1", "there is no checkpoint"), (ball, "1", "is of another run"),
                               (empty + "_away", "0.2", "is not behind it")):
         errors, _ = run(two, end, "-flow_from", of, *sphere, code=2)
