@@ -16,9 +16,9 @@ struct MeshOptions {
       periodic;  ///< pairs of physical names joined by translation: a, b[, c, d ...]
   std::string partitioner = "metis";  ///< or ptscotch, simple
   Vec3 along = {};                    ///< direction that metis avoids to cut across; zero: none
-  /// Work of the cell at this centre, in a mesh of that dimension, beyond that of a fluid cell, in
-  /// any unit: metis gives every rank its share of it, and its share of the cells besides. Empty:
-  /// none.
+  /// Work of the cell at this centre, in a mesh of that dimension, beyond that of a fluid cell. Any
+  /// unit will do: metis gives every rank its share of it, and its share of the cells besides.
+  /// Empty: none.
   std::function<Real(const Vec3& x, int dim)> load = {};
   /// Collective. The same by the number of a cell in the mesh as read (Mesh::global_id): of as many
   /// cells as the second argument says, from the first one on. Empty: `load` counts.
