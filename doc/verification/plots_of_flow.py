@@ -43,7 +43,7 @@ def energy():
     series = grouped((f"{row[0].split()[0]}, {row[1]}, {row[2]} a side", C, abs(first(cell)))
                      for row in rows("energy")
                      for C, cell in zip((0.5, 0.25, 0.125), row[3:]) if cell)
-    lines(ax, series, "Courant number", "part of the kinetic energy lost to t = 2", 3)
+    lines(ax, series, "Courant number", "change of the kinetic energy to t = 2, as a part of it", 3)
     legend(figure, ax, 2)
     return figure
 

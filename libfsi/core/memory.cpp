@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace fsi {
 namespace {
@@ -37,6 +40,12 @@ std::uint64_t of_group() {
 }  // namespace
 
 std::uint64_t memory_limit() { return std::min({of_machine(), of_address_space(), of_group()}); }
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 std::string text_of_bytes(std::uint64_t bytes) {
   constexpr std::array units{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};

@@ -166,14 +166,18 @@ void Momentum::hold_old_of_part() {
 
 // Central convection has imaginary eigenvalues, up to i Co. There AB3 is stable to 0.72, a blend of
 // three quarters AB3 and one quarter AB2 to 0.78, AB2 nowhere. Viscosity lets AB2 bear more.
+// A step multiplies a mode of the eigenvalue i z / dt by 1 + (1/4 - 5/8 w) z^4, w the weight of
+// AB3. Symmetric convection has no others: with w = 3/4 it stays stable longest and loses less
+// energy.
 Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) const {
   constexpr Real whole = 0.66, none = 0.9;
+  const Real most = scheme_ == Convection::symmetric ? 0.75 : 1;
   Real part = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     const Real courant = dt * courant_rate(terms.phi, mesh_, c);
     part = std::max(part, mesh_.simplex(c) ? std::min(courant, terms.explicit_courant) : courant);
   }
-  return std::clamp((none - global_max(part)) / (none - whole), Real{0}, Real{1});
+  return std::clamp((none - global_max(part)) / (none - whole), Real{0}, most);
 }
 
 // Histories are written in place: checkpoints and backups know their address.

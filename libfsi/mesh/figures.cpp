@@ -55,8 +55,9 @@ std::string print(const char* format, ...) {
   return text.data();
 }
 
-MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls) {
-  return {quality(mesh), narrowest_gap(mesh, walls), extent(mesh)};
+MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls,
+                         const std::vector<std::string>& mirrors) {
+  return {quality(mesh), narrowest_gap(mesh, walls, mirrors), extent(mesh)};
 }
 
 Box extent(const Mesh& mesh) {

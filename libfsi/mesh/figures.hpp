@@ -38,8 +38,10 @@ struct MeshFigures {
   Box box;          ///< that holds all cells
 };
 
-/// Collective. walls: between which patches the gap is measured (mesh/gap.hpp); none: all.
-MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls);
+/// Collective. walls: between which patches the gap is measured; none: all but the mirrors, which
+/// are planes of symmetry (mesh/gap.hpp).
+MeshFigures mesh_figures(const Mesh& mesh, const std::vector<std::string>& walls,
+                         const std::vector<std::string>& mirrors = {});
 
 /// What is past a limit: figure, limit and place in words, and what to change in gmsh.
 struct Finding {

@@ -21,7 +21,8 @@ struct Ray {
   Real cells, width;
   GlobalIndex start, cell;  // the cell it started from, and the one it enters next
   std::int32_t from, to;    // patches
-  std::int32_t crossings;
+  std::int32_t crossings, mirrored;
+  Vec3 turn;  // where it was mirrored first
 };
 
 bool earlier(const Ray& a, const Ray& b) {
@@ -29,22 +30,39 @@ bool earlier(const Ray& a, const Ray& b) {
          std::tuple(b.cells, b.start, b.from, b.begin.x, b.begin.y, b.begin.z);
 }
 
-std::vector<char> chosen_patches(const Mesh& mesh, const std::vector<std::string>& walls) {
-  std::vector<char> chosen(mesh.patches.size(), walls.empty() ? 1 : 0);
-  for (const std::string& name : walls)
-    chosen[static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data())] = 1;
-  return chosen;
+/// What a patch does to a line that meets it.
+enum class Side : char { end, wall, mirror };
+
+std::vector<Side> sides_of(const Mesh& mesh, const std::vector<std::string>& walls,
+                           const std::vector<std::string>& mirrors) {
+  std::vector<Side> sides(mesh.patches.size(), walls.empty() ? Side::wall : Side::end);
+  const auto set = [&](const std::vector<std::string>& names, Side side) {
+    for (const std::string& name : names)
+      sides[static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data())] = side;
+  };
+  set(mirrors, Side::mirror), set(walls, Side::wall);
+  return sides;
 }
 
-std::vector<Ray> rays_from(const Mesh& mesh, const std::vector<char>& chosen) {
+std::vector<Ray> rays_from(const Mesh& mesh, const std::vector<Side>& sides) {
   std::vector<Ray> rays;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (chosen[i] == 0) continue;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] != Side::wall) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Vec3 inward = -mesh.Sf[f] / norm(mesh.Sf[f]);
       const GlobalIndex id = mesh.global_id[mesh.owner[f]];
-      rays.push_back(
-          {mesh.Cf[f], inward, mesh.Cf[f], 0, 0, id, id, static_cast<std::int32_t>(i), -1, 0});
+      rays.push_back({mesh.Cf[f],
+                      inward,
+                      mesh.Cf[f],
+                      0,
+                      0,
+                      id,
+                      id,
+                      static_cast<std::int32_t>(i),
+                      -1,
+                      0,
+                      0,
+                      {}});
     }
   }
   return rays;
@@ -88,7 +106,12 @@ Index cross_cell(const Mesh& mesh, Index c, Ray& ray) {
 /// The end of a line on this rank: it ends (-1 or a patch in `to`), or enters a halo cell.
 enum class Fate { lost, arrived, leaves };
 
-Fate follow(const Mesh& mesh, Index c, const std::vector<char>& chosen, Real best, Ray& ray) {
+void mirror(Ray& ray, const Vec3& n) {
+  ray.along -= 2 * dot(ray.along, n) * n;
+  if (ray.mirrored++ == 0) ray.turn = ray.x;
+}
+
+Fate follow(const Mesh& mesh, Index c, const std::vector<Side>& sides, Real best, Ray& ray) {
   while (true) {
     const Index f = cross_cell(mesh, c, ray);
     if (f < 0 || ray.cells > best || ray.crossings > crossings_max) return Fate::lost;
@@ -96,10 +119,13 @@ Fate follow(const Mesh& mesh, Index c, const std::vector<char>& chosen, Real bes
       const auto patch = std::ranges::find_if(
           mesh.patches, [&](const Patch& p) { return f >= p.begin && f < p.end; });
       ray.to = static_cast<std::int32_t>(patch - mesh.patches.begin());
-      const Real cosine = dot(ray.along, mesh.Sf[f]) / norm(mesh.Sf[f]);
-      return chosen[static_cast<std::size_t>(ray.to)] != 0 && cosine > std::sqrt(0.5)
-                 ? Fate::arrived
-                 : Fate::lost;
+      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Side side = sides[static_cast<std::size_t>(ray.to)];
+      if (side != Side::mirror)
+        return side == Side::wall && dot(ray.along, n) > std::sqrt(0.5) ? Fate::arrived
+                                                                        : Fate::lost;
+      mirror(ray, n);
+      continue;
     }
     const Vec3 period = mesh.translation[static_cast<std::size_t>(mesh.shift[f])];
     if (mesh.owner[f] == c)
@@ -153,16 +179,17 @@ Real edge(const Mesh& mesh, Index c) {
   return std::cbrt(V);
 }
 
-Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls) {
-  const std::vector<char> chosen = chosen_patches(mesh, walls);
-  std::vector<Ray> rays = rays_from(mesh, chosen), arrived;
+Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls,
+                  const std::vector<std::string>& mirrors) {
+  const std::vector<Side> sides = sides_of(mesh, walls, mirrors);
+  std::vector<Ray> rays = rays_from(mesh, sides), arrived;
   Real best = cells_max;
   while (true) {
     std::vector<Ray> leaving;
     for (Ray& ray : rays) {
       const Index c = owned_cell(mesh, ray.cell);
       if (c < 0) continue;
-      const Fate fate = follow(mesh, c, chosen, best, ray);
+      const Fate fate = follow(mesh, c, sides, best, ray);
       if (fate == Fate::leaves) leaving.push_back(ray);
       if (fate != Fate::arrived) continue;
       best = std::min(best, ray.cells);
@@ -179,8 +206,9 @@ Gap narrowest_gap(const Mesh& mesh, const std::vector<std::string>& walls) {
   const auto found = std::ranges::min_element(offered, earlier);
   if (found == offered.end()) return {};
   const auto name = [&](std::int32_t i) { return mesh.patches[static_cast<std::size_t>(i)].name; };
-  return {found->cells, found->width, found->begin + 0.5 * found->width * found->along,
-          name(found->from), name(found->to)};
+  const Vec3 middle =
+      found->mirrored > 0 ? found->turn : found->begin + 0.5 * found->width * found->along;
+  return {found->cells, found->width, middle, name(found->from), name(found->to)};
 }
 
 }  // namespace fsi

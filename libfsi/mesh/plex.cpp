@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/memory.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/plex_cells.hpp"
 #include "libfsi/mesh/plex_partition.hpp"
@@ -194,11 +195,14 @@ CellList distribute(CellList slab, const Division& how) {
       numbered.vertices = here.corners;
       for (Index& p : numbered.vertices.index) p = here.vertex_id[p];
     }
+    release_freed_memory();
     std::vector<Index> vertices;
     const auto [plex, origin] = migrate(plex_of(numbered, points.size(), vertices), parts);
     share = share_of(plex, origin, cells);
   }
+  release_freed_memory();
   pull_cells(slab, share.file_cell, mine);
+  slab = CellList{};
   mine.global_id.assign(share.file_cell.begin(), share.file_cell.end());
   mine.n_owned = share.n_owned;
   mine.halo_owner = std::move(share.halo_owner);

@@ -182,15 +182,16 @@ void check_intervals(const OutputSetup& output, Real end) {
   check("sample_interval", output.sample_interval, rows, "rows");
 }
 
-/// The patches that are walls.
-std::vector<std::string> walls_of(const Conditions& conditions, const Mesh& mesh) {
-  std::vector<std::string> walls;
+/// The patches with that type of condition.
+template <typename Type>
+std::vector<std::string> patches_of(const Conditions& conditions, const Mesh& mesh) {
+  std::vector<std::string> names;
   for (const Patch& patch : mesh.patches) {
     const auto found = conditions.find(patch.name);
-    if (found != conditions.end() && std::holds_alternative<Wall>(found->second))
-      walls.push_back(patch.name);
+    if (found != conditions.end() && std::holds_alternative<Type>(found->second))
+      names.push_back(patch.name);
   }
-  return walls;
+  return names;
 }
 
 /// With -restart_divide the cells that the solids of the newest checkpoint fill at least half.
@@ -260,7 +261,9 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
       velocity == 0 ? peak_flow(setup.flow.conditions, mesh, setup.time.end) : PeakFlow{};
   std::vector<Real> edges;
   for (const SolidSetup& s : setup.solids) edges.push_back(mean_edge(shape_in(mesh.dim, s), mesh));
-  const MeshFigures figures = mesh_figures(mesh, walls_of(setup.flow.conditions, mesh));
+  const Conditions& conditions = setup.flow.conditions;
+  const MeshFigures figures =
+      mesh_figures(mesh, patches_of<Wall>(conditions, mesh), patches_of<Slip>(conditions, mesh));
   const Real force = largest_force(setup.flow.body_force, mesh, setup.time.end);
   if (rank() != 0) return;
   std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());

@@ -146,7 +146,7 @@ void write_worst(const std::string& path, const Mesh& mesh, const CellQuality& c
 
 /// What the user asked for.
 struct Wish {
-  std::vector<std::string> periodic, walls;
+  std::vector<std::string> periodic, walls, symmetry;
   int worst = 10;
   std::string worst_file;
 };
@@ -155,7 +155,11 @@ Wish read_wish(Options& options) {
   Wish wish;
   wish.periodic =
       options.list("mesh_periodic", "pairs of patches joined by translation: a,b[,c,d ...]");
-  wish.walls = options.list("walls", "patches between which passages are measured; none: all");
+  wish.walls = options.list(
+      "walls", "patches between which passages are measured; none: all but the planes of symmetry");
+  wish.symmetry = options.list(
+      "symmetry",
+      "planes of symmetry, which mirror a passage; none: the patch of that name, if there is one");
   wish.worst = options.integer(
       "worst", wish.worst,
       {.help = "how many of the worst cells are listed (20 at most) and written", .min = 1});
@@ -166,6 +170,13 @@ Wish read_wish(Options& options) {
           "option -worst_file: \"" + file + "\" must end in .hdf or .vtkhdf, by which ParaView " +
               "knows it");
   return wish;
+}
+
+std::vector<std::string> planes_of_symmetry(const Wish& wish, const Mesh& mesh) {
+  if (!wish.symmetry.empty()) return wish.symmetry;
+  const bool named =
+      std::ranges::any_of(mesh.patches, [](const Patch& p) { return p.name == "symmetry"; });
+  return named ? std::vector<std::string>{"symmetry"} : std::vector<std::string>{};
 }
 
 }  // namespace
@@ -241,7 +252,7 @@ RunStatus check_mesh_file(const std::string& file) {
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
   const Mesh mesh = read_mesh({file, wish.periodic});
-  const MeshFigures figures = mesh_figures(mesh, wish.walls);
+  const MeshFigures figures = mesh_figures(mesh, wish.walls, planes_of_symmetry(wish, mesh));
   const CellQuality cells = cell_quality(mesh);
   const FaceWeights weights(mesh);
   const Treatment treated = treatment(mesh, weights);

@@ -37,8 +37,8 @@ struct PatchFigures {
 /// Collective.
 PatchFigures patch_figures(const Mesh& mesh, const Patch& patch);
 
-/// Collective. Reads the mesh file and prints its report. Options: -mesh_periodic, -walls, -worst,
-/// -worst_file. Errors: Error{input}.
+/// Collective. Reads the mesh file and prints its report. Options: -mesh_periodic, -walls,
+/// -symmetry, -worst, -worst_file. Errors: Error{input}.
 RunStatus check_mesh_file(const std::string& file);
 
 /// Collective. fsi-mesh convert: writes the gmsh file as one that all ranks read in parallel.

@@ -29,14 +29,20 @@ std::string table_of(const Body& body) {
   return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
 }
 
-/// Collective. Cells at least half full of solid: the most a rank has over the mean; 0: none.
-Real solid_share(const Solver& solver) {
+/// Cells at least half full of solid.
+struct SolidCells {
+  Real mean = 0;     // of the ranks
+  Real busiest = 0;  // the most a rank has, over the mean; 0: none
+};
+
+/// Collective.
+SolidCells solid_cells(const Solver& solver) {
   GlobalIndex mine = 0;
   for (const Body& body : solver.bodies())
     for (Index c = 0; c < body.mesh.n_owned; ++c) mine += body.alpha[c] >= 0.5 ? 1 : 0;
-  const GlobalIndex total = global_sum(mine);
+  const Real mean = static_cast<Real>(global_sum(mine)) / ranks();
   const Real most = global_max(static_cast<Real>(mine));
-  return total > 0 ? most * ranks() / static_cast<Real>(total) : 0;
+  return {mean, mean > 0 ? most / mean : 0};
 }
 
 /// Collective. Where the solid is strained most: the cell with the smallest eigenvalue of B.
@@ -64,9 +70,9 @@ std::string place_of_strain(const Solver& solver) {
 }  // namespace
 
 void tell_of_solids(const Solver& solver) {
-  const Real share = ranks() > 1 ? solid_share(solver) : 0;
-  if (rank() == 0 && share > 0)
-    std::printf("solid cells on the ranks: largest over mean %.2f\n", share);
+  const Real busiest = ranks() > 1 ? solid_cells(solver).busiest : 0;
+  if (rank() == 0 && busiest > 0)
+    std::printf("solid cells on the ranks: largest over mean %.2f\n", busiest);
   for (const Body& body : solver.bodies())
     if (body.filled.cut_by.odd)
       say("notice",
@@ -189,6 +195,18 @@ void Watch::leaving(const Solver& solver) {
                     "taken out and counts in volume_out",
                     t, 100 * body.residue / body.filled.volume, body.residue));
   }
+}
+
+void Watch::balance(const Solver& solver) {
+  constexpr Real uneven = 2, few = 30;  // cells a rank: so few cost little
+  if (ranks() == 1 || told_of_balance_) return;
+  const SolidCells cells = solid_cells(solver);
+  if (cells.mean < few || cells.busiest < uneven) return;
+  told_of_balance_ = true;
+  say("notice", print("at t = %.4g one rank has %.2f times the mean of the solid's cells, and the "
+                      "others wait for it: ended by SIGINT or SIGTERM and gone on with -restart "
+                      "-restart_divide, the run shares them anew",
+                      solver.state().t, cells.busiest));
 }
 
 void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) {

@@ -48,6 +48,8 @@ class Watch {
   void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
+  /// Collective. A notice when the ranks no longer share the cells of the solids evenly.
+  void balance(const Solver& solver);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
   /// stress is not that of its shape. Another if it has more pieces than at the first call.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound);
@@ -59,7 +61,7 @@ class Watch {
   };
   std::vector<Said> said_;  // of the bodies
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
-       told_of_end_ = false, told_of_dissipation_ = false;
+       told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false;
 };
 
 }  // namespace fsi

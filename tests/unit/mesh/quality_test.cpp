@@ -178,6 +178,36 @@ TEST(Gap, GoesOnAcrossAPeriod) {
   EXPECT_EQ(narrowest_gap(mesh_of(block)).cells, 0) << "no walls";
 }
 
+TEST(Gap, GoesBackFromAPlaneOfSymmetry) {
+  Block block;
+  block.n = {4, 5, 3};
+  const Mesh mesh = mesh_of(block);
+  const Gap twice = narrowest_gap(mesh, {"left"}, {"right"});
+  EXPECT_NEAR(twice.cells, 8, 1e-12);
+  EXPECT_NEAR(twice.width, 2, 1e-12);
+  EXPECT_NEAR(twice.x.x, 1, 1e-12) << "where it meets the plane";
+  EXPECT_EQ(twice.from + twice.to, "leftleft");
+  EXPECT_NEAR(narrowest_gap(mesh, {}, {"back"}).cells, 4, 1e-12) << "6 from front to front";
+  EXPECT_EQ(narrowest_gap(mesh, {}, {"left", "right", "bottom", "top", "back", "front"}).cells, 0);
+}
+
+TEST(Gap, OfTheHalfIsThatOfTheWhole) {
+  // Walls at 15 degrees to the plane of symmetry: across it the lines end on the mirrored wall.
+  Block block;
+  block.type = CellType::quad, block.n = {12, 6, 1};
+  block.moved = [](const Vec3& x) {
+    return Vec3{4 * x.x, x.y * (1 + std::tan(M_PI / 12) * 4 * x.x), 0};
+  };
+  const Gap half = narrowest_gap(mesh_of(block), {"top"}, {"bottom"});
+  block.n[1] = 12, block.moved = [](const Vec3& x) {
+    return Vec3{4 * x.x, (2 * x.y - 1) * (1 + std::tan(M_PI / 12) * 4 * x.x), 0};
+  };
+  const Gap whole = narrowest_gap(mesh_of(block), {"bottom", "top"});
+  EXPECT_GT(whole.cells, 8);
+  EXPECT_NEAR(half.cells, whole.cells, 1e-9);
+  EXPECT_NEAR(half.width, whole.width, 1e-9);
+}
+
 TEST(Gap, OfQuadsInThePlane) {
   Block block;
   block.type = CellType::quad, block.n = {9, 4, 1};

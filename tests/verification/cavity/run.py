@@ -57,6 +57,7 @@ def main():
     failures, errors = [], []
     for n in map(int, sys.argv[8:]):
         out = os.path.join(folder, f"Re{re}-{n}")
+        os.makedirs(out, exist_ok=True)
         subprocess.run([driver, case, "-mesh", os.path.join(meshes, f"cavity{n}.msh"),
                         "-output_dir", out, "-fluid_viscosity", str(1 / float(re)), "-time_end", end,
                         "-time_courant", "0.5", "-output_interval", end, "-sample_interval", "1"],

@@ -206,7 +206,7 @@ TEST(Slab, Triangles) {
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
 }
 
-TEST(SlabFine, TrianglesInMidCell) {
+TEST(SlabMore, TrianglesInMidCell) {
   const auto [coarse, fine] = converge({viscous, KinematicsKind::log_conformation, true}, 17, 33);
   EXPECT_LE(fine.u, 2e-4);
   EXPECT_LE(fine.B_xy, 4e-4);
@@ -216,7 +216,7 @@ TEST(SlabFine, TrianglesInMidCell) {
 
 // With solvers to 1e-10 the finer mesh has 7.7e-4 and 2.84e-3 in any order of the cells. The
 // default tolerance moves both by up to 7 %.
-TEST(SlabFine, OnAWallOfTetrahedra) {
+TEST(SlabMore, OnAWallOfTetrahedra) {
   const auto [coarse, fine] = converge({.layers = viscous, .half = true, .tets = true}, 8, 16);
   EXPECT_LE(coarse.u, 2e-3);
   EXPECT_LE(fine.u, 8.5e-4);
@@ -255,7 +255,7 @@ TEST(Slab, InviscidSolid) {
   EXPECT_GE(order(coarse.B_xy, fine.B_xy), 1.8);
 }
 
-TEST(Slab, InviscidSolidInMidCell) {
+TEST(SlabMore, InviscidSolidInMidCell) {
   const auto [coarse, fine] = converge({elastic}, 33, 65);
   EXPECT_LE(fine.u, 0.003 * std::abs(Exact(elastic).amplitude(0.5)));
   EXPECT_LT(fine.u, coarse.u);
@@ -276,7 +276,7 @@ TEST(Slab, TwoViscosities) {
   }
 }
 
-TEST(Slab, TwoViscositiesShortSteps) {
+TEST(SlabMore, TwoViscositiesShortSteps) {
   for (const Real mu_s : {0.0, 0.2, 5.0}) {
     const auto [coarse, fine] = converge(two(mu_s, 4), 16, 32);
     const Real amplitude = std::abs(Exact(two(mu_s, 4).layers).amplitude(0.5));
@@ -287,7 +287,7 @@ TEST(Slab, TwoViscositiesShortSteps) {
   }
 }
 
-TEST(Slab, TwoViscositiesInMidCell) {
+TEST(SlabMore, TwoViscositiesInMidCell) {
   for (const Real mu_s : {0.2, 5.0}) {
     // with 5 the error at 17 is as small by chance
     const auto [coarse, fine] = converge(two(mu_s, 4), mu_s > 1 ? 33 : 17, mu_s > 1 ? 65 : 33);
@@ -310,7 +310,7 @@ void expect_map(const Setup& setup, Index n, Real limit, Real order) {
   EXPECT_LT(fine.B_xy, coarse.B_xy);
 }
 
-TEST(Slab, ReferenceMap) {
+TEST(SlabMore, ReferenceMap) {
   constexpr KinematicsKind map = KinematicsKind::reference_map;
   expect_map({viscous, map}, 32, 2e-4, 1.7);
   expect_map({viscous, map}, 33, 1.2e-4, 1.7);
@@ -318,11 +318,11 @@ TEST(Slab, ReferenceMap) {
   expect_map({soft, map}, 33, 6e-5, 1.5);
 }
 
-TEST(SlabFine, ReferenceMapOnTriangles) {
+TEST(SlabMore, ReferenceMapOnTriangles) {
   expect_map({viscous, KinematicsKind::reference_map, true}, 32, 8e-4, 1);
 }
 
-TEST(Slab, InviscidReferenceMap) {
+TEST(SlabMore, InviscidReferenceMap) {
   constexpr KinematicsKind map = KinematicsKind::reference_map;
   expect_map({elastic, map}, 32, 2e-3, 1.4);
   expect_map({elastic, map}, 33, 2e-3, 1.2);

@@ -122,10 +122,10 @@ Balance run_vortex(const Mesh& mesh, Real k, Real end, Real courant) {
 // Only the steps change the energy: less than a thousandth, and the less the shorter they are.
 TEST(Tets, OrthogonalProjectionKeepsEnergy) {
   const Mesh mesh = read_mesh({.file = file("tets8"), .periodic = {}});
-  const Balance coarse = run_vortex(mesh, 2 * pi, 2, 0.4), fine = run_vortex(mesh, 2 * pi, 2, 0.2);
+  const Balance coarse = run_vortex(mesh, 2 * pi, 2, 0.5), fine = run_vortex(mesh, 2 * pi, 2, 0.25);
   EXPECT_LE(std::abs(coarse.change), 1e-3);
   EXPECT_LE(4 * std::abs(fine.change), std::abs(coarse.change));
-  EXPECT_LE(coarse.growth, 2e-4);  // in the first step, of Euler
+  EXPECT_LE(coarse.growth, 3e-4);  // in the first step, of Euler; it goes with dt^2
 }
 
 TEST(Tets, OrthogonalProjectionKeepsEnergyBesideSlip) {
