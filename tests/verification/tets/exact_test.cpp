@@ -13,6 +13,7 @@
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/flow_errors.hpp"
+#include "tests/unit/support/kovasznay.hpp"
 
 namespace fsi {
 namespace {
@@ -92,6 +93,20 @@ TEST(Exact, TaylorGreenBesideSlipIsOfSecondOrder) {
 
 // On the same meshes, with as many steps, icoFoam has 9.3e-2, 4.1e-2, 3.3e-2 for u and 2.4e-2,
 // 1.4e-2, 1.2e-2 for p (doc/verification/icofoam.py).
+TEST(Exact, KovasznayOnFreeTrianglesIsOfSecondOrder) {
+  std::vector<test::Errors> off;
+  for (const int n : {16, 32, 64}) {
+    const std::string name = "free" + std::to_string(n);
+    const Mesh mesh = read_mesh({.file = FSI_MESHES "/" + name + ".msh", .periodic = {}});
+    off.push_back(test::kovasznay::run(mesh, 0.2 / n));
+    std::printf("Kovasznay, %s: u %.2e, p %.2e\n", name.c_str(), off.back().u, off.back().p);
+  }
+  for (std::size_t i = 1; i < off.size(); ++i) {
+    EXPECT_GE(std::log2(off[i - 1].u / off[i].u), 1.8);
+    EXPECT_GE(std::log2(off[i - 1].p / off[i].p), 1.5);
+  }
+}
+
 TEST(Exact, TaylorGreenIsLessOffThanByIcoFoam) {
   const Flow flow = taylor_green(0.01, pi);
   const std::vector<test::Errors> other{{9.3e-2, 2.4e-2}, {4.1e-2, 1.4e-2}, {3.3e-2, 1.2e-2}};
