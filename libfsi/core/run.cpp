@@ -173,7 +173,8 @@ RunStatus run_command(const std::vector<Command>& commands, const std::vector<st
     if (help) return command.body(expected);
     require(words.size() == 1 + expected.size(),
             "command \"" + command.name + "\" is written " + command.name + " " + command.operands +
-                " [options]; words given after it: " + std::to_string(words.size() - 1));
+                " [options]; given after it: " + std::to_string(words.size() - 1) +
+                (words.size() == 2 ? " word" : " words"));
     return command.body({words.begin() + 1, words.end()});
   }
   throw Error(ErrorKind::input, "command \"" + words.front() +
