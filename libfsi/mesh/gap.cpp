@@ -18,11 +18,11 @@ constexpr Real none = std::numeric_limits<Real>::infinity();
 /// A line on its way. Copied between ranks as bytes.
 struct Ray {
   Vec3 x, along, begin;
-  Real cells, width;
-  GlobalIndex start, cell;  // the cell it started from, and the one it enters next
-  std::int32_t from, to;    // patches
-  std::int32_t crossings, mirrored;
-  Vec3 turn;  // where it was mirrored first
+  Real cells = 0, width = 0;
+  GlobalIndex start, cell;     // the cell it started from, and the one it enters next
+  std::int32_t from, to = -1;  // patches
+  std::int32_t crossings = 0, mirrored = 0;
+  Vec3 turn{};  // where it was mirrored first
 };
 
 bool earlier(const Ray& a, const Ray& b) {
@@ -51,18 +51,12 @@ std::vector<Ray> rays_from(const Mesh& mesh, const std::vector<Side>& sides) {
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Vec3 inward = -mesh.Sf[f] / norm(mesh.Sf[f]);
       const GlobalIndex id = mesh.global_id[mesh.owner[f]];
-      rays.push_back({mesh.Cf[f],
-                      inward,
-                      mesh.Cf[f],
-                      0,
-                      0,
-                      id,
-                      id,
-                      static_cast<std::int32_t>(i),
-                      -1,
-                      0,
-                      0,
-                      {}});
+      rays.push_back({.x = mesh.Cf[f],
+                      .along = inward,
+                      .begin = mesh.Cf[f],
+                      .start = id,
+                      .cell = id,
+                      .from = static_cast<std::int32_t>(i)});
     }
   }
   return rays;
@@ -103,13 +97,13 @@ Index cross_cell(const Mesh& mesh, Index c, Ray& ray) {
   return out;
 }
 
-/// The end of a line on this rank: it ends (-1 or a patch in `to`), or enters a halo cell.
-enum class Fate { lost, arrived, leaves };
-
 void mirror(Ray& ray, const Vec3& n) {
   ray.along -= 2 * dot(ray.along, n) * n;
   if (ray.mirrored++ == 0) ray.turn = ray.x;
 }
+
+/// The end of a line on this rank: it ends (-1 or a patch in `to`), or enters a halo cell.
+enum class Fate { lost, arrived, leaves };
 
 Fate follow(const Mesh& mesh, Index c, const std::vector<Side>& sides, Real best, Ray& ray) {
   while (true) {

@@ -72,8 +72,8 @@ void expect_carried_on_tets(Real diameters, Real limit) {
   EXPECT_NEAR(errors.aspect, 1, 0.03);
 }
 
-TEST(Carried, Hexes) { expect_carried_on_hexes(10); }
-TEST(Carried, Tets) { expect_carried_on_tets(3, 3e-3); }
+TEST(Carried, Hexes) { expect_carried_on_hexes(4); }
+TEST(Carried, Tets) { expect_carried_on_tets(1.5, 3e-3); }
 TEST(CarriedFar, Hexes) { expect_carried_on_hexes(100); }
 TEST(CarriedFar, Tets) { expect_carried_on_tets(10, 5e-3); }
 
