@@ -74,6 +74,7 @@ void expect_carried_on_tets(Real diameters, Real limit) {
 
 TEST(Carried, Hexes) { expect_carried_on_hexes(4); }
 TEST(Carried, Tets) { expect_carried_on_tets(1.5, 3e-3); }
+TEST(CarriedFar, HexesAtFirst) { expect_carried_on_hexes(10); }
 TEST(CarriedFar, Hexes) { expect_carried_on_hexes(100); }
 TEST(CarriedFar, Tets) { expect_carried_on_tets(10, 5e-3); }
 

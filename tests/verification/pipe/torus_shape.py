@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The soft torus along the axis of the pipe keeps its shape once it has found it.
 
-    torus_shape.py DRIVER CASE MESH FOLDER KINEMATICS...
+    torus_shape.py DRIVER CASE MESH FOLDER [KINEMATICS...]
 
 The load is steady after t = 2, so an elastic ring is too. From there to t = 4 the aspect of each section of its
 tube, 24 cells per pipe diameter, changes by no more than 1 % with log_conformation and with the reference map
@@ -29,7 +29,7 @@ def main():
     driver, case, mesh, folder, *kinds = sys.argv[1:]
     os.makedirs(folder, exist_ok=True)
     bad = []
-    for kinematics in kinds:
+    for kinematics in kinds or ("log_conformation", "reference_map"):
         late = [row for row in rows(driver, case, mesh, folder, kinematics) if row["t"] >= 2]
         for section in SECTIONS:
             values = [row[section] for row in late]
