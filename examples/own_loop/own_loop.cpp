@@ -3,8 +3,8 @@
 //   gmsh -2 -setnumber n 32 meshes/cavity.geo -o cavity.msh
 //   mine/own-loop -mesh cavity.msh
 // The numbers beside the calls are those of doc/theory/step.md. What one disc of the fluid's
-// viscosity on an orthogonal mesh between walls does not need is left out: (3), (9), (10), (13),
-// (14) and (18).
+// viscosity on an orthogonal mesh between walls does not need is left out: (3), (10), (13), (14)
+// and (19), and of (9) all but the friction at flat walls.
 
 #include <libfsi/fsi.hpp>
 

@@ -2,14 +2,15 @@
 """Draws the table of a sweep: draw.py OUT [OPTION...] makes OUT/sweep.png of OUT/sweep.csv.
 
 Every column that differs between the points that are complete, against the first option that takes
-several values; one line for each set of the other options. OPTION...: the columns that are options
+several values; one line for each set of the other options. Positive values over more than two
+decades stand on a logarithmic axis. OPTION...: the columns that are options
 (default: those before the column `status`).
 """
 import csv
 import os
 import sys
 
-SHOWN = 16  # panels
+SHOWN = 32  # panels
 LEFT_OUT = {"t", "dt", "dt_limit", "limit", "courant", "wall_per_step", "pressure_iterations",
             "rejected_steps", "divergence_max", "overshoot"}
 
@@ -35,6 +36,10 @@ def columns_that_differ(rows, names):
             yield name
 
 
+def is_wide(values):
+    return None not in values and min(values) > 0 and max(values) > 100 * min(values)
+
+
 def draw(out, options=()):
     """The picture's name; None where there is nothing to draw or nothing to draw with."""
     rows, names = read(os.path.join(out, "sweep.csv"))
@@ -44,7 +49,10 @@ def draw(out, options=()):
         print("nothing to draw: fewer than two different points are complete")
         return None
     shown = list(columns_that_differ(rows, [n for n in names[names.index("status") + 1:]
-                                            if n not in LEFT_OUT]))[:SHOWN]
+                                            if n not in LEFT_OUT]))
+    if len(shown) > SHOWN:
+        print("not drawn: " + ", ".join(shown[SHOWN:]))
+    shown = shown[:SHOWN]
     try:
         import matplotlib
         matplotlib.use("Agg")
@@ -70,6 +78,8 @@ def draw(out, options=()):
             else:
                 pairs.sort()
                 ax.plot([x for x, _, _ in pairs], [y for _, _, y in pairs], "o-", label=label)
+        if is_wide([number(row[along]) for row in rows]):
+            ax.set_xscale("log")
         ax.set_title(name, loc="left", fontsize=10)
         ax.set_xlabel(along)
         ax.grid(alpha=0.25)

@@ -59,7 +59,7 @@ bool empty(const Condition& condition) {
 void set_shapes(std::vector<Condition>& conditions, const Mesh& mesh) {
   std::vector<Patch> free;
   for (std::size_t i = 0; i < conditions.size(); ++i)
-    if (std::holds_alternative<Slip>(conditions[i])) free.push_back(mesh.patches[i]);
+    if (lets_slip(conditions[i])) free.push_back(mesh.patches[i]);
   for (std::size_t i = 0; i < conditions.size(); ++i)
     if (auto* flow = std::get_if<FlowRate>(&conditions[i]))
       flow->shape = inflow_shape(flow->profile, mesh.patches[i], mesh, free);
@@ -190,6 +190,25 @@ bool prescribes_flow(const Condition& condition) {
 
 bool fixes_pressure(const Condition& condition) {
   return std::holds_alternative<Opening>(condition);
+}
+
+bool lets_slip(const Condition& condition) { return std::holds_alternative<Slip>(condition); }
+
+std::vector<bool> patches_where(const std::vector<Condition>& conditions,
+                                bool (*holds)(const Condition&)) {
+  std::vector<bool> where;
+  for (const Condition& condition : conditions) where.push_back(holds(condition));
+  return where;
+}
+
+std::vector<char> faces_where(const std::vector<Condition>& conditions, const Mesh& mesh,
+                              bool (*holds)(const Condition&)) {
+  std::vector<char> where(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (holds(conditions[i]))
+      for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
+        where[f - mesh.n_internal] = 1;
+  return where;
 }
 
 }  // namespace fsi

@@ -85,5 +85,14 @@ bool prescribes_flow(const Condition& condition);
 bool has_openings(const Conditions& conditions);
 /// Whether the condition gives the pressure: an Opening.
 bool fixes_pressure(const Condition& condition);
+/// Whether the fluid slips along the patch: Slip.
+bool lets_slip(const Condition& condition);
+
+/// [patches] whether the condition `holds`.
+std::vector<bool> patches_where(const std::vector<Condition>& conditions,
+                                bool (*holds)(const Condition&));
+/// [n_boundary] 1 on the faces of these patches.
+std::vector<char> faces_where(const std::vector<Condition>& conditions, const Mesh& mesh,
+                              bool (*holds)(const Condition&));
 
 }  // namespace fsi

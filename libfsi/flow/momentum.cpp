@@ -11,18 +11,6 @@ namespace {
 
 constexpr int damped_steps = 2;  // the first, with theta = 1
 
-ViscousBoundary viscous_boundary(const std::vector<Condition>& conditions, const Mesh& mesh) {
-  const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
-  ViscousBoundary boundary{none, none};
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
-      const Index b = f - mesh.n_internal;
-      boundary.open[b] = fixes_pressure(conditions[i]) ? 1 : 0;
-      boundary.varied[b] = prescribes_flow(conditions[i]) ? 1 : 0;
-    }
-  return boundary;
-}
-
 /// The least of the first dim components.
 Real least(const Vec3& v, Index dim) {
   const Real xy = std::min(v.x, v.y);
@@ -48,7 +36,8 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       rho_(rho),
       mu_0_(mu_0),
       scheme_(scheme),
-      boundary_(viscous_boundary(conditions, mesh)),
+      boundary_{faces_where(conditions, mesh, fixes_pressure),
+                faces_where(conditions, mesh, prescribes_flow)},
       history_{CellField<Vec3>(mesh), CellField<Vec3>(mesh), CellField<Vec3>(mesh)},
       theta_f_(mesh),
       rhs_(mesh),
@@ -61,8 +50,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       const Index b = f - mesh.n_internal;
       const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
       if (fixes_pressure(conditions[i])) implicit_[b] = {};
-      if (std::holds_alternative<Slip>(conditions[i]))
-        implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
+      if (lets_slip(conditions[i])) implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
     }
   if (weights.uneven) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
   set_theta(1);

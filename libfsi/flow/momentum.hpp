@@ -66,8 +66,8 @@ struct MomentumTerms {
 /// stays in the unit circle for any l if r < 2 theta - 1. The term in u^(n-1) keeps the scheme of
 /// second order. At a face in `one_sided`, E may be larger than |k| / |S_f| times the compact term.
 /// There theta_f is larger by max(0, 1/4 - 1/l_f), l_f = dt mu g (1/V_P + 1/V_N) / rho. theta_f is
-/// 1 at all faces where mu_s / mu_f > 2. It is 1 in the first steps, too, without the term in
-/// u^(n-1): this damps an impulsive start.
+/// 1 at all faces where mu_s / mu_f is above 2 or below 1/2. It is 1 in the first steps, too,
+/// without the term in u^(n-1): this damps an impulsive start.
 class Momentum {
  public:
   /// Collective. rho, mu_0: of the fluid; mesh, weights and conditions must outlive it.

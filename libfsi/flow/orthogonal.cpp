@@ -39,7 +39,7 @@ Orthogonal::Orthogonal(const Mesh& mesh, const GradientStencil& stencil,
                        const std::vector<Condition>& conditions)
     : mesh_(mesh),
       stencil_(stencil),
-      slips_(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      slips_(faces_where(conditions, mesh, lets_slip)),
       L_(mesh),
       L_f_(stencil.weights.irregular.size()),
       u_b_(mesh),
@@ -48,11 +48,7 @@ Orthogonal::Orthogonal(const Mesh& mesh, const GradientStencil& stencil,
       slope_(mesh),
       flux_(mesh),
       r_(static_cast<std::size_t>(mesh.n_owned)),
-      Md_(r_.size()) {
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
-      slips_[f - mesh.n_internal] = std::holds_alternative<Slip>(conditions[i]) ? 1 : 0;
-}
+      Md_(r_.size()) {}
 
 void Orthogonal::set_flux(FaceField<Real>& phi, const CellField<Vec3>& u) {
   const FaceWeights& weights = stencil_.weights;

@@ -9,16 +9,6 @@
 namespace fsi::flow {
 namespace {
 
-std::vector<bool> pressure_given(const std::vector<Condition>& conditions) {
-  std::vector<bool> given;
-  for (const Condition& condition : conditions) given.push_back(fixes_pressure(condition));
-  return given;
-}
-
-bool any(const std::vector<bool>& flags) {
-  return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
-
 Real density(const FluxTerms& terms, Index f) {
   return terms.density != nullptr ? terms.density->of_face()[f] : terms.rho;
 }
@@ -115,19 +105,14 @@ Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
     : mesh_(mesh),
       weights_(weights),
       correctors_(weights.uneven ? correctors : 0),
-      open_(any(pressure_given(conditions))),
-      open_face_(static_cast<std::size_t>(mesh.n_boundary()), 0),
-      adjustable_(open_face_.size(), 0),
-      stencil_(mesh, weights, pressure_given(conditions)),
+      open_(std::ranges::any_of(conditions, fixes_pressure)),
+      open_face_(faces_where(conditions, mesh, fixes_pressure)),
+      adjustable_(faces_where(conditions, mesh, prescribes_flow)),
+      stencil_(mesh, weights, patches_where(conditions, fixes_pressure)),
       first_(mesh),
       grad_f_(weights.irregular.size()),
       b_(static_cast<std::size_t>(mesh.n_owned)),
       system_(mesh, "p", method, !open_, 1e-6) {
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
-      open_face_[f - mesh.n_internal] = fixes_pressure(conditions[i]) ? 1 : 0;
-      adjustable_[f - mesh.n_internal] = prescribes_flow(conditions[i]) ? 1 : 0;
-    }
   if (weights.uneven) oblique_rest_.emplace(mesh);
   Sum area;
   for (Index b = 0; b < mesh.n_boundary(); ++b)

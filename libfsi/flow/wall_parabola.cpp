@@ -24,16 +24,6 @@ CellField<Vec3> wall_normals(const Mesh& mesh, const std::vector<Condition>& con
   return normal;
 }
 
-/// [n_boundary] 1 on planes of slip: a value there belongs to the foot of the cell's centre.
-std::vector<char> on_slip(const std::vector<Condition>& conditions, const Mesh& mesh) {
-  std::vector<char> slips(static_cast<std::size_t>(mesh.n_boundary()), 0);
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f)
-      slips[static_cast<std::size_t>(f - mesh.n_internal)] =
-          std::holds_alternative<Slip>(conditions[i]) ? 1 : 0;
-  return slips;
-}
-
 /// 1 on a flat wall, falling to 0 as the normals around turn. An edge is not a curved wall.
 Real flatness(const CellField<Vec3>& normal, Index f, const Mesh& mesh) {
   constexpr Real curved = 0.02, edge = 0.7;  // radian; cosine
@@ -50,7 +40,7 @@ WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& condi
                            const GradientStencil& stencil)
     : mesh_(mesh), weights_(stencil.weights), share_(mesh), largest_(mesh) {
   const CellField<Vec3> normal = wall_normals(mesh, conditions);
-  const std::vector<char> slips = on_slip(conditions, mesh);
+  const std::vector<char> slips = faces_where(conditions, mesh, lets_slip);
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     if (!std::holds_alternative<Wall>(conditions[i])) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {

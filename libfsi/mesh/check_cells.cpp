@@ -44,6 +44,19 @@ struct Corners {
   }
 };
 
+/// The equations square lengths, and a cell's volume is the product of three.
+void check_scale(const RawMesh& raw) {
+  constexpr Real smallest = 1e-20, largest = 1e20;
+  Real reach = 0;
+  for (const Index p : raw.corners.index)
+    for (int k = 0; k < 3; ++k)
+      reach = std::max(reach, std::abs(raw.points[p][k] - raw.points[raw.corners.index[0]][k]));
+  require(reach >= smallest && reach <= largest,
+          raw.file + print(" is %.3g wide, out of the range from %g to %g that can be computed "
+                           "with: choose another unit of length (Mesh.ScalingFactor of gmsh)",
+                           reach, smallest, largest));
+}
+
 void check_points(const RawMesh& raw) {
   for (std::size_t i = 0; i < raw.points.size(); ++i) {
     const Vec3& x = raw.points[i];
@@ -237,6 +250,7 @@ void check_cells(RawMesh& raw) {
   check_points(raw);
   if (raw.dim == 2) flatten(raw);
   check_repeated(raw);
+  check_scale(raw);
   check_collapsed(raw);
   check_volumes(raw);
   check_tangled(raw);

@@ -96,7 +96,7 @@ PetscErrorCode on_values(Vec y, Vec x, const Work& work) noexcept {
   PetscCall(VecGetArrayWrite(y, &to));
   try {
     work(to, from);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     PetscFunctionReturn(PETSC_ERR_LIB);
   }
   PetscCall(VecRestoreArrayRead(x, &from));

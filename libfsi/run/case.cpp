@@ -81,7 +81,7 @@ void warn_of_curved_planes(const Conditions& conditions, const Mesh& mesh) {
   constexpr Real rounding = 0.1;  // degrees
   for (const Patch& patch : mesh.patches) {
     const auto found = conditions.find(patch.name);
-    if (found == conditions.end() || !std::holds_alternative<Slip>(found->second)) continue;
+    if (found == conditions.end() || !lets_slip(found->second)) continue;
     const Real turn = curvature(patch, mesh);
     if (turn > rounding && rank() == 0)
       std::fprintf(stderr,

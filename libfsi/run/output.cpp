@@ -274,7 +274,7 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
     for (Entry& entry : all[0].entries)
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
   for (std::size_t i = 0; i < records_.size(); ++i)
-    if (solver_.bodies()[i].gone == 0) watch_.strain(i, solver_, records_[i].soundness());
+    if (solver_.bodies()[i].gone == 0) watch_.strain(i, solver_, records_[i].soundness(), energy_);
   watch_.balance(solver_);
   return all;
 }

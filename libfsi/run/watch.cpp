@@ -209,7 +209,8 @@ void Watch::balance(const Solver& solver) {
                       solver.state().t, cells.busiest));
 }
 
-void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) {
+void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
+                   const EnergyBalance& energy) {
   constexpr Real least = 0.05;  // doc/verification/stability.md
   const Body& body = solver.bodies()[i];
   const std::string at = print("at t = %.4g ", solver.state().t);
@@ -222,12 +223,17 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound) 
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
-  constexpr Real apart = 0.5;     // of the larger
-  constexpr Real matters = 1e-3;  // of G times the volume
+  constexpr Real apart = 0.5;      // of the larger
+  constexpr Real of_solid = 1e-3;  // of G times the volume
+  // A stiff solid is far below that, and yet may store more than the flow gave. In slow flow little
+  // is stored, and the work tells what counts.
+  constexpr Real of_stored = 0.5, of_work = 0.01;
+  const Real matters =
+      std::min(of_solid * body.G * body.filled.volume,
+               std::max(of_stored * energy.largest(), of_work * std::abs(energy.work())));
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
   // A solid that leaves has no shape to compare with.
-  if (body.map() != nullptr && !leaves(body) && !said.forgetful &&
-      larger > matters * body.G * body.filled.volume &&
+  if (body.map() != nullptr && !leaves(body) && !said.forgetful && larger > matters &&
       std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {
     said.forgetful = true;
     say("warning", at + "the stress of the " + name_of(body) +

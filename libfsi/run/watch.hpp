@@ -51,8 +51,11 @@ class Watch {
   /// Collective. A notice when the ranks no longer share the cells of the solids evenly.
   void balance(const Solver& solver);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
-  /// stress is not that of its shape. Another if it has more pieces than at the first call.
-  void strain(std::size_t body, const Solver& solver, const Soundness& sound);
+  /// stress is not that of its shape. Then they differ by more than half of the larger one, which
+  /// is not small beside what the solid or the flow has. Another if it has more pieces than at the
+  /// first call.
+  void strain(std::size_t body, const Solver& solver, const Soundness& sound,
+              const EnergyBalance& energy);
 
  private:
   struct Said {

@@ -53,9 +53,6 @@ class ElasticForce {
              const FaceWeights& weights, PressureStencil& pressure, const Band& band,
              CellField<SymGradient>& grad);
 
-  /// Shear modulus.
-  Real G() const { return G_; }
-
  private:
   void add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
                          const ElasticState& solid, const FaceWeights& weights, const Band& band,

@@ -41,11 +41,14 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       mesh_(mesh),
       beside_psi_(role == Role::beside_psi),
       at_wall_(mesh),
-      stencil_(mesh, FaceWeights(mesh), patches_of(symmetry, mesh)),
       known_(mesh),
       extension_(mesh, symmetry),
       filled_(mesh),
       slope_(mesh) {
+  const FaceWeights weights(mesh);
+  GradientStencil stencil(mesh, weights, patches_of(symmetry, mesh));
+  of_owner_ = std::move(stencil.owner);
+  of_neighbour_ = std::move(stencil.neighbour);
   for (const Patch& patch : walls)
     for (Index f = patch.begin; f < patch.end; ++f) at_wall_[mesh.owner[f]] = 1;
   mesh.halo.update(at_wall_);
@@ -57,10 +60,6 @@ void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
   mark(alpha);
   is_set.fill(0);
   extend();
-}
-
-void ReferenceMap::set(Index /*c*/, const SymTensor& /*B*/, Real /*alpha*/) {
-  throw Error(ErrorKind::input, "reference_map: B alone does not tell a map; give the map itself");
 }
 
 void ReferenceMap::resume(const CellField<Real>& alpha, CellField<SymGradient>& /*grad*/) {
@@ -91,16 +90,16 @@ Tensor ReferenceMap::gradient(Index c) const {
     return extension_.regression(c);
   for (const Index f : mesh_.cell_faces[c]) {
     const Index n = beyond(mesh_, f, c);
-    const Vec3& weight = stencil_.weight(f, mesh_.owner[f] == c);
+    const Vec3& g = weight(f, c);
     if (n >= 0) {
-      sum += outer(d[n] - d[c], weight);
+      sum += outer(d[n] - d[c], g);
     } else if (symmetry.has(f, mesh_)) {
       // xihat - (xihat . n) n is the value at the foot of the centre on the plane, half way to the
       // image. The weights are those of the face's centre, which lies off the foot by t. So
-      // sum = grad xihat . (I - t (x) weight).
+      // sum = grad xihat . (I - t (x) g).
       const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
-      sum += outer(-dot(d[c], normal) * normal, weight);
-      aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, weight);
+      sum += outer(-dot(d[c], normal) * normal, g);
+      aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, g);
     } else {
       return extension_.regression(c);
     }
@@ -185,7 +184,7 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
     const Index n = beyond(mesh_, f, c);
     if (n < 0) continue;
     const Real there = filled_[n] >= alpha_known ? volume_ratio(n) : 1;
-    grad_J += (there - J) * stencil_.weight(f, mesh_.owner[f] == c);
+    grad_J += (there - J) * weight(f, c);
   }
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
   Vec3 way = courant * grad_J;

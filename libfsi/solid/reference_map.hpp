@@ -74,8 +74,6 @@ class ReferenceMap {
   Strain transport(const CellField<Real>& alpha, const FlowSnapshot& snapshot, Real dt,
                    CellField<SymGradient>& grad);
 
-  /// A map does not follow from B. Errors: always Error{input}.
-  void set(Index c, const SymTensor& B, Real alpha);
   /// Sets xi at the centre of the cell; then `resume`.
   void set_map(Index c, const Vec3& xi) { d[c] = xi - mesh_.C[c], is_set[c] = 1; }
 
@@ -100,6 +98,10 @@ class ReferenceMap {
 
  private:
   Tensor gradient_of_map(Index c) const;
+  /// g_cf of face f (GradientStencil).
+  const Vec3& weight(Index f, Index c) const {
+    return mesh_.owner[f] == c ? of_owner_[f] : of_neighbour_[f];
+  }
   /// Whether face f leads from known cell c to a cell that is not known.
   bool leaves_known(Index f, Index c) const;
   /// Whether known cell c has an unknown cell beyond a face, and neither c nor such a cell has a
@@ -126,8 +128,8 @@ class ReferenceMap {
 
   const Mesh& mesh_;
   bool beside_psi_;
-  CellField<Real> at_wall_;  ///< 1 in cells with a face on a wall; owned and halo
-  GradientStencil stencil_;
+  CellField<Real> at_wall_;                    ///< 1 in cells with a face on a wall; owned and halo
+  std::vector<Vec3> of_owner_, of_neighbour_;  ///< weights of the faces in the gradient of a cell
   Band known_;
   MapExtension extension_;
   CellField<Real> filled_;                    // alpha where xihat is set

@@ -195,11 +195,7 @@ Real Solver::advance(Real dt) {
     try {
       step(dt);
       against = rejection_reason(dt);
-      if (against.reason.empty() && stuck(dt)) {
-        reason = "a hundred steps in a row of less than a millionth of the largest; " +
-                 diagnosis({"", holder(dt), body()}, dt);
-        break;
-      }
+      if (against.reason.empty() && stuck(dt)) against = holder(dt), i = halvings;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerics) throw;
       against = {error.what(), Term::solve, nullptr};
@@ -216,7 +212,7 @@ Real Solver::advance(Real dt) {
     ++report_.rejected;
     ++report_.rejections[against.reason];
   }
-  report_.failure = failure_of(state_, tiny_steps_ > 0 ? dt : 2 * dt) + reason;
+  report_.failure = failure_of(state_, 2 * dt) + reason;
   return 0;
 }
 

@@ -106,9 +106,12 @@ void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
 }
 
 void Body::set_B(const std::function<SymTensor(const Vec3&)>& B_0) {
+  require(!std::holds_alternative<solid::ReferenceMap>(kinematics),
+          "reference_map: B alone does not tell a map; give the map itself");
   std::visit(
       [&](auto& k) {
-        for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
+        if constexpr (requires { k.set(0, SymTensor{}, 0); })
+          for (Index c = 0; c < mesh.n_cells; ++c) k.set(c, B_0(mesh.C[c]), alpha[c]);
       },
       kinematics);
   held = false;  // the map from the undeformed shape does not follow from B

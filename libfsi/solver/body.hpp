@@ -189,7 +189,7 @@ struct Body {
   std::optional<solid::InterfaceGradient>
       interface_gradient;                        ///< with log_conformation in a simplex zone
   std::optional<vof::KinkProfile> kink_profile;  ///< of cut cells, with interface_gradient
-  CellField<solid::SymGradient> grad;            ///< scratch of both
+  CellField<solid::SymGradient> grad;            ///< scratch of all that strains
   std::optional<solid::ReferenceMap> memory;     ///< the memory of log_conformation
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the shape of the map

@@ -28,17 +28,8 @@ void Solver::balance_weight(State& state) {
   if (state.step == 0) {
     constexpr int most = 60;
     constexpr Real round_off = 1e-15;
-    const flow::FluxTerms terms{.L_f = L_f_,
-                                .p = state.p,
-                                .grad_p = grad_p_,
-                                .grad_p_f = projection_.face_gradient(),
-                                .p_b = p_b_,
-                                .rhie_chow_source = rhie_chow_source_,
-                                .mu = mu_,
-                                .theta = mu_,
-                                .kappa = kappa_,
-                                .density = &heavy_->density,
-                                .force = &force_};
+    flow::FluxTerms terms = flux_terms(0);
+    terms.force = &force_;
     FaceField<Real> flux(mesh_);
     BoundaryField<Real> q_b(mesh_);
     Real first = 0;

@@ -88,6 +88,8 @@ std::vector<std::string> Solver::describe_step() const {
   std::string viscosity = where(modes_.mu_varies, "mu of fluid and solids by alpha");
   if (modes_.films)
     viscosity += std::string(viscosity.empty() ? "" : "; ") + "that of the film at walls";
+  if (wall_parabola_.any() && !bodies_.empty())
+    viscosity += std::string(viscosity.empty() ? "" : "; ") + "no parabola of walls at the solids";
   const std::array<std::pair<const char*, std::string>, 19> calls{{
       {"hold_shape", solids(&OfBody::hold)},
       {"advance_interface", solids(&OfBody::advance)},

@@ -68,13 +68,17 @@ std::string Solver::at_worst(const Figure& figure, const char* what, const char*
   return what + print(" is %.3g ", w.value) + place(w, mesh_) + (*why != 0 ? ": " : "") + why;
 }
 
-Solver::Term Solver::holder(Real dt) const {
+Solver::Rejection Solver::holder(Real dt) const {
+  Rejection holder{"a hundred steps in a row of less than a millionth of the largest",
+                   Term::convection, nullptr};
   Real most = dt / advective_dt(1);
-  Term term = Term::convection;
-  if (bodies_.empty()) return term;
-  if (const Real part = dt / elastic_dt(); part > most) most = part, term = Term::elasticity;
-  if (const Real part = dt / strain_dt(solid::strain_max); part > most) term = Term::strain;
-  return term;
+  for (const Body& body : bodies_)
+    if (const Real part = dt / elastic_dt(body); part > most)
+      most = part, holder.term = Term::elasticity, holder.body = &body;
+  if (bodies_.empty() || dt / strain_dt(solid::strain_max) <= most) return holder;
+  holder.term = Term::strain;
+  if (holder.body == nullptr) holder.body = body();
+  return holder;
 }
 
 std::string Solver::diagnosis(const Rejection& rejection, Real dt) {

@@ -68,7 +68,7 @@ void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
   set_boundary_velocity(u_b_, state.u, solver.conditions(), state.t, mesh);
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const bool open = fixes_pressure(solver.conditions()[i]);
-    const bool slips = std::holds_alternative<Slip>(solver.conditions()[i]);
+    const bool slips = lets_slip(solver.conditions()[i]);
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal, P = mesh.owner[f];
       const Vec3 u = open ? state.u[P] : u_b_[b];

@@ -35,6 +35,8 @@ class EnergyBalance {
   Real stored() const { return stored_; }
   /// dW/dt.
   Real power() const { return power_; }
+  /// The largest E so far, without rounding.
+  Real largest() const { return largest_; }
   /// W: the work done.
   Real work() const { return work_; }
   /// What the scheme has made, as above.

@@ -63,7 +63,7 @@ void Solver::put_solid(const Solid& solid) {
   std::vector<Patch> mirrors, walls;
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const Condition& here = conditions_[i];
-    if (std::holds_alternative<Slip>(here)) mirrors.push_back(mesh_.patches[i]);
+    if (lets_slip(here)) mirrors.push_back(mesh_.patches[i]);
     if (fixes_velocity(here)) walls.push_back(mesh_.patches[i]);
   }
   bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls);

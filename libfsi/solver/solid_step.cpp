@@ -37,12 +37,11 @@ const solid::InterfaceGradient* one_sided_of(const Body& body) {
 }
 
 /// The flow that carries psi, the memory or the map kinematics, without the surface's fields.
-solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Tensor>& L,
-                                const FlowAround& flow) {
-  const bool by_flux = body.strain_by_flux();
+solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Vec3>& u,
+                                const CellField<Tensor>& L, const FlowAround& flow) {
   return {.phi = flow.phi,
-          .u = by_flux ? flow.by_flux->u : flow.u,
-          .L = by_flux ? flow.by_flux->L : L,
+          .u = u,
+          .L = L,
           .stencil = flow.pressure.cells,
           .weights = body.weights,
           .one_sided = one_sided_of(body),
@@ -138,14 +137,7 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
   if (body.film) body.film->set(body.alpha);
   map.mark(body.fraction_of_memory());
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
-  const solid::FlowSnapshot snapshot{.phi = flow.phi,
-                                     .u = flow.u,
-                                     .L = L,
-                                     .stencil = flow.pressure.cells,
-                                     .weights = body.weights,
-                                     .one_sided = one_sided_of(body),
-                                     .wave_speed = body.wave_speed(),
-                                     .recovery = body.G / body.mu};
+  const solid::FlowSnapshot snapshot = snapshot_of(body, flow.u, L, flow);
   // The memory holds the interface, so it goes in parts with it: two at most, since each costs as
   // much as one of the whole step (doc/notebook/2026-11-27-along-the-path.md).
   const int parts = std::min(body.interface_parts, 2);
@@ -160,7 +152,8 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
   if (body.film) body.film->set(fraction);
   const solid::Contact contact{flow.u_b, body.touched};
   const solid::CutFaces cuts{body.alpha_f, body.normal_f, fraction};
-  solid::FlowSnapshot snapshot = snapshot_of(body, L, flow);
+  solid::FlowSnapshot snapshot = by_flux ? snapshot_of(body, flow.by_flux->u, flow.by_flux->L, flow)
+                                         : snapshot_of(body, flow.u, L, flow);
   snapshot.contact = &contact;
   snapshot.cuts = &cuts;
   if (body.two_viscosities) snapshot.in_series = body.two_viscosities->traction.in_series();

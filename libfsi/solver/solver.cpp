@@ -16,20 +16,6 @@ Method pressure_method(const Mesh& mesh) {
   return mesh.dim == 2 && mesh.n_global <= small ? Method::direct : Method::multigrid;
 }
 
-std::vector<bool> velocity_given(const std::vector<Condition>& conditions) {
-  std::vector<bool> given;
-  for (const Condition& condition : conditions) given.push_back(!fixes_pressure(condition));
-  return given;
-}
-
-/// Where the velocity along a patch is that of the cells.
-std::vector<bool> symmetric(const std::vector<Condition>& conditions) {
-  std::vector<bool> slips;
-  for (const Condition& condition : conditions)
-    slips.push_back(std::holds_alternative<Slip>(condition));
-  return slips;
-}
-
 /// Velocities of the boundary without a pace of their own, and the force.
 std::vector<OfPlaceAndTime> over_time(const std::vector<Condition>& conditions,
                                       const OfPlaceAndTime::Function& force, const Mesh& mesh) {
@@ -72,7 +58,9 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       stiffness_(mesh),
       rhie_chow_source_(mesh),
       excess_(mesh),
-      u_stencil_(mesh, weights_, velocity_given(conditions_), symmetric(conditions_)),
+      u_stencil_(mesh, weights_,
+                 patches_where(conditions_, [](const Condition& c) { return !fixes_pressure(c); }),
+                 patches_where(conditions_, lets_slip)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
       openings_(mesh, conditions_, physics.rho),
@@ -116,17 +104,8 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   set_gradient(L_, u_b_, state_.t);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   openings_.set_pressure(p_b_, state_.u);
-  const flow::FluxTerms terms{.L_f = L_f_,
-                              .p = state_.p,
-                              .grad_p = grad_p_,
-                              .grad_p_f = projection_.face_gradient(),
-                              .p_b = p_b_,
-                              .rhie_chow_source = rhie_chow_source_,
-                              .mu = mu_,
-                              .theta = momentum_.theta_taken(),
-                              .kappa = kappa_,
-                              .rho = physics_.rho};
-  flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.boundary().open, terms, weights_, mesh_);
+  flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.boundary().open, flux_terms(0), weights_,
+                     mesh_);
   projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * mesh_.total_volume);
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
   if (forcing_) {
@@ -247,29 +226,33 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }
 
+flow::FluxTerms Solver::flux_terms(Real dt) const {
+  return {.L_f = L_f_,
+          .p = state_.p,
+          .grad_p = grad_p_,
+          .grad_p_f = projection_.face_gradient(),
+          .p_b = p_b_,
+          .rhie_chow_source = rhie_chow_source_,
+          .mu = mu_,
+          .theta = momentum_.theta_taken(),
+          .kappa = implicit(),
+          .rho = physics_.rho,
+          .dt = dt,
+          .density = heavy_ ? &heavy_->density : nullptr,
+          .force = heavy_ ? &heavy_->force : nullptr,
+          .stress = modes_.G,
+          .stiffness = modes_.flux_strain ? &stiffness_ : nullptr,
+          .excess = dt > 0 ? &excess_ : nullptr,
+          .t = state_.t};
+}
+
 void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt) {
   const Profile::Call call(profile_, calls_.predict_flux);
   set_gradient(L_, u_b_new_, state_.t + dt);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   for (std::size_t i = 0; i < interface_faces_.size(); ++i)
     L_f_[weights_.place[interface_faces_[i]]] = interface_L_f_[i];
-  const flow::FluxTerms terms{.L_f = L_f_,
-                              .p = state_.p,
-                              .grad_p = grad_p_,
-                              .grad_p_f = projection_.face_gradient(),
-                              .p_b = p_b_,
-                              .rhie_chow_source = rhie_chow_source_,
-                              .mu = mu_,
-                              .theta = momentum_.theta_taken(),
-                              .kappa = implicit(),
-                              .rho = physics_.rho,
-                              .dt = projection_.orthogonal() ? 0 : dt,  // then of u* alone
-                              .density = heavy_ ? &heavy_->density : nullptr,
-                              .force = heavy_ ? &heavy_->force : nullptr,
-                              .stress = modes_.G,
-                              .stiffness = modes_.flux_strain ? &stiffness_ : nullptr,
-                              .excess = projection_.orthogonal() ? nullptr : &excess_,
-                              .t = state_.t};
+  const flow::FluxTerms terms = flux_terms(projection_.orthogonal() ? 0 : dt);  // 0: of u* alone
   flow::predict_flux(phi, u, u_b_new_, momentum_.boundary().open, terms, weights_, mesh_);
 }
 

@@ -200,6 +200,8 @@ class Solver {
   void set_flux_excess(const State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
+  /// What the flux at the faces takes over a step of dt; with 0 that of a given velocity alone.
+  flow::FluxTerms flux_terms(Real dt) const;
   void project(State& state, Real dt);
   void hold_mean_velocity(State& state, Real dt);
   void check(const State& state);
@@ -238,8 +240,8 @@ class Solver {
   std::string diagnosis_of_solid(const Body& body, Term term, Real dt) const;
   template <class Figure>
   std::string at_worst(const Figure& figure, const char* what, const char* why) const;
-  /// What holds a step as short as dt.
-  Term holder(Real dt) const;
+  /// What holds the steps as short as dt, where there were too many such in a row.
+  Rejection holder(Real dt) const;
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
   /// What the bodies ask of a step, set as they are put in.

@@ -139,7 +139,7 @@ Real needed_share(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const A
 /// of a face compute the same.
 void redistribute(const CellField<Real>& alpha, const FaceField<Real>& phi, Real dt,
                   const Mesh& mesh, AdvectScratch& s, AdvectReport& report) {
-  for (;; ++report.rounds) {
+  for (int round = 0;; ++round) {
     Real worst = 0;
     for (const Index c : s.cells) {
       const Real a = updated(alpha, phi, dt, mesh, s, c);
@@ -148,8 +148,7 @@ void redistribute(const CellField<Real>& alpha, const FaceField<Real>& phi, Real
       s.share[c] = excess > bound ? needed_share(phi, dt, mesh, s, c, a) : 0;
     }
     report.remaining = global_max(worst);
-    if (report.rounds == 0) report.overshoot = report.remaining;
-    if (report.remaining <= bound || report.rounds == max_rounds) break;
+    if (report.remaining <= bound || round == max_rounds) break;
     mesh.halo.update(s.share);
     for (const Index f : s.faces) {
       const Real v = phi[f] * dt;

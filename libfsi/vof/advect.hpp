@@ -14,17 +14,15 @@ namespace fsi::vof {
 
 /// Figures of a step of advection.
 struct AdvectReport {
-  Real courant = 0;    ///< largest (dt / 2V) sum |phi| of the cells at the interface
-  int rounds = 0;      ///< of redistribution
-  Real overshoot = 0;  ///< largest excess over [0, 1] before redistribution
-  Real remaining = 0;  ///< and after it; above 1e-12 only where the Courant number exceeds one
+  Real courant = 0;  ///< largest (dt / 2V) sum |phi| of the cells at the interface
+  /// Largest excess over [0, 1] that is left; above 1e-12 only where the Courant number exceeds
+  /// one.
+  Real remaining = 0;
   Real returned = 0;  ///< volume given back to the interface, |sum|: from div phi and from rounding
 
   /// Adds the figures of the next part of the step.
   void add(const AdvectReport& next) {
     courant += next.courant;
-    rounds = std::max(rounds, next.rounds);
-    overshoot = std::max(overshoot, next.overshoot);
     remaining = std::max(remaining, next.remaining);
     returned += next.returned;
   }

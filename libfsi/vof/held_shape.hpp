@@ -24,11 +24,11 @@ struct HoldScratch {
   /// mesh must outlive it.
   explicit HoldScratch(const Mesh& mesh) : cell(mesh.dim) {}
 
-  std::vector<Index> cells;                ///< near the surface that the map gives
-  std::vector<geometry::Plane> planes;     ///< of that surface, about the cell's centre
-  std::vector<Real> weight, area, change;  ///< [cells]
-  geometry::Polytope cell;                 ///< scratch
-  Vec3 laps;                               ///< periods that the solid has crossed
+  std::vector<Index> cells;             ///< near the surface that the map gives
+  std::vector<geometry::Plane> planes;  ///< of that surface, about the cell's centre
+  std::vector<Real> weight, change;     ///< [cells]
+  geometry::Polytope cell;              ///< scratch
+  Vec3 laps;                            ///< periods that the solid has crossed
 };
 
 /// Collective. Moves the fractions towards those of the solid that the map gives, {x : shape(xi(x))

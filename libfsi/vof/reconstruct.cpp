@@ -123,25 +123,22 @@ ReconstructScratch::ReconstructScratch(const Mesh& mesh)
       marked(static_cast<std::size_t>(mesh.n_owned), 0),
       cell(mesh.dim) {}
 
-ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
-                              ReconstructScratch& s, const ReconstructAccuracy& accuracy) {
+void reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
+                 ReconstructScratch& s, const ReconstructAccuracy& accuracy) {
   for (const Index c : interface.cells) interface.piece[c] = {};
   find_cells(alpha, mesh, s);
   first_normals(alpha, mesh, s);
-  ReconstructReport report;
   cut_cells(interface, alpha, mesh, s);
   for (int i = 0; i < accuracy.max_rounds; ++i) {
     reconstruct_distance(interface, mesh, s);
     const Change change = new_normals(interface, mesh, s);
     cut_cells(interface, alpha, mesh, s);
-    report = {i + 1, change.turned};
     if (change.turned < accuracy.turn || change.turned < accuracy.turn_of_bend * change.bent) break;
   }
   interface.cells.clear();
   for (const Index c : s.cells) {
     if (interface.piece[c].area > 0) interface.cells.push_back(c);
   }
-  return report;
 }
 
 void gather(geometry::Polytope& cell, const Mesh& mesh, Index c) {

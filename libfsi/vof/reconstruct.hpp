@@ -34,12 +34,6 @@ struct ReconstructAccuracy {
   Real turn_of_bend = 0.1;  ///< the same as a part of the mean 1 - cos between neighbours' normals
 };
 
-/// The convergence of the normals.
-struct ReconstructReport {
-  int rounds = 0;  ///< of distance and gradient
-  Real turn = 0;   ///< mean over the interface of 1 - cos of the turn in the last round
-};
-
 /// Scratch of `reconstruct`, made once; grows with the interface, never shrinks.
 struct ReconstructScratch {
   /// mesh must outlive it.
@@ -60,9 +54,8 @@ struct ReconstructScratch {
 /// for normals. The result depends on alpha alone, not on the steps before. On the number of ranks
 /// it depends by rounding only. alpha: owned and halo set. On return owned cells and halo of
 /// `interface` are set; cells where the gradient of alpha vanishes have no plane.
-ReconstructReport reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
-                              ReconstructScratch& scratch,
-                              const ReconstructAccuracy& accuracy = {});
+void reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
+                 ReconstructScratch& scratch, const ReconstructAccuracy& accuracy = {});
 
 /// The boundary of owned cell c, coordinates relative to C[c].
 void gather(geometry::Polytope& cell, const Mesh& mesh, Index c);

@@ -50,6 +50,7 @@ PANELS = (
     Panel("iterations", "pressure iterations in a step", "flow", ("pressure_iterations",), "1"),
     Panel("wall", "wall time of a step", "flow", ("wall_per_step",), "s"),
 )
+MOST_IN_LEGEND = 8
 OF_THE_RUN = ("dt", "divergence", "iterations", "wall")  # shown only where asked for
 KEYS = list(dict.fromkeys(panel.key for panel in PANELS))
 
@@ -159,31 +160,42 @@ def figure_of(count, columns=3):
     return figure, axes.flat[:count]
 
 
+def lines_over_time(panel, run, tables, asked):
+    """The (column, t, values) of a panel; of several solids each column has the name of its solid before it."""
+    if panel.table != "solid" or len(run.solids) < 2:
+        return [(column, tables[panel.table]["t"], values)
+                for column, values in lines_of(panel, tables[panel.table], asked)]
+    return [(f"{solid.removeprefix('solid_')} {column}", tables[solid]["t"], values) for solid in run.solids
+            for column, values in lines_of(panel, tables[solid], asked)]
+
+
 def series(run, show=None, units=labels.Units()):
     """The tables of a run over time; None where there is nothing to show."""
     tables, dim = with_drift(run), run.snapshot(0).dim if run.items else 3
     panels, asked = chosen_panels(show, tables)
-    panels = [(panel, lines_of(panel, tables[panel.table], asked)) for panel in panels
+    panels = [(panel, lines_over_time(panel, run, tables, asked)) for panel in panels
               if asked or fits(panel, run, dim)]
     drawn = {}  # each set of columns once, under any name
     for panel, lines in panels:
         if lines:
-            drawn.setdefault((panel.table, *(name for name, _ in lines)), (panel, lines))
+            drawn.setdefault((panel.table, *(name for name, _, _ in lines)), (panel, lines))
     panels = list(drawn.values())
     if not panels:
         return None
     figure, axes = figure_of(len(panels))
     for ax, (panel, lines) in zip(axes, panels):
-        for (name, values), colour in zip(lines, itertools.cycle(style.LINES)):
-            ax.plot(tables[panel.table]["t"], _shown(values, panel), color=colour,
-                    label=_short(name, [other for other, _ in lines]))
+        for (name, t, values), colour in zip(lines, itertools.cycle(style.LINES)):
+            ax.plot(t, _shown(values, panel), color=colour,
+                    label=_short(name, [other for other, _, _ in lines]))
         empty = empty_gradient(run) if panel.key == "gradient" else None
         if empty is not None:
             ax.axhline(empty, color="0.45", linestyle="--", linewidth=1, label="empty pipe")
-        values = np.concatenate([values for _, values in lines])
+        values = np.concatenate([values for _, _, values in lines])
         _finish(ax, panel, units, dim, values, lines[0][0] if len(lines) == 1 < len(panel.columns) else "")
-        if len(lines) > 1 or empty is not None:
+        if 1 < len(lines) <= MOST_IN_LEGEND or empty is not None:
             _legend(ax, len(lines) + (empty is not None))
+        elif len(lines) > 1:
+            ax.set_title(f"{panel.title}, {len(run.solids)} solids", loc="left")
     if run.failed():
         figure.suptitle(sections.end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
     return figure

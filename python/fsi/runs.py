@@ -240,8 +240,7 @@ class Run:
     def __init__(self, folder):
         self.folder = folder
         self.options = options(os.path.join(folder, "run.yaml"))
-        # Of several solids the first one is followed over time.
-        names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
+        self.solids = names = sorted(n[:-4] for n in os.listdir(folder) if re.fullmatch(r"solid(_.+)?\.csv", n))
         self.tables = {name: table(os.path.join(folder, name + ".csv")) for name in [*names, "flow"]}
         self.tables.setdefault("solid", self.tables[names[0]] if names else {})
         for name in sorted(n[:-4] for n in os.listdir(folder) if n.endswith(".csv")):

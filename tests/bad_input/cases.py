@@ -160,6 +160,7 @@ MESH = [
     mesh("version 3", f.version("3.0"), "2.2, 4.0 or 4.1"),
     mesh("version 5", f.version("5"), "2.2, 4.0 or 4.1"),
     mesh("node NaN", f.node(20, 0, "nan"), "node"),
+    mesh("node far away", f.node(20, 0, "1e200"), "1e+200 wide", "unit of length"),
     mesh("node infinite", f.node(20, 0, "inf"), "node"),
     mesh("node a word", f.node(20, 0, "left"), "left"),
     mesh("unknown node", f.elements(f.unknown_node), "999999"),

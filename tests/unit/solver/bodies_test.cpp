@@ -70,6 +70,17 @@ TEST(Bodies, PassEachOtherAndKeepTheirVolumes) {
   }
 }
 
+// B alone does not tell a map, and psi does not follow from one.
+TEST(Bodies, EachKinematicsTakesItsOwnFieldAlone) {
+  Scene scene(false);
+  Solid solid = disc("one", {0.3, 0.5, 0}, 2);
+  solid.kinematics = KinematicsKind::reference_map;
+  scene.solver.put_solid(solid);
+  scene.solver.put_solid(disc("two", {0.9, 0.5, 0}, 2));
+  EXPECT_THROW(scene.solver.bodies()[0].set_B([](const Vec3&) { return identity(); }), Error);
+  EXPECT_THROW(scene.solver.bodies()[1].set_map([](const Vec3& x) { return x; }), Error);
+}
+
 // A second solid of the fluid's own stuff changes nothing but by what its interface costs.
 TEST(Bodies, OneOfFluidIsNotFelt) {
   Scene alone(false), both(false);

@@ -61,6 +61,17 @@ TEST_F(Description, MemoryViscosityDensityAndForceShow) {
   EXPECT_NE(one.describe_step()[10].find("traction between two viscosities"), std::string::npos);
 }
 
+TEST(DescriptionAtWalls, TheParabolaOfFlatWallsIsToldWithASolidAlone) {
+  const Mesh mesh = test::box_mesh({.n = {16, 16, 0}});
+  Conditions conditions;
+  for (const Patch& patch : mesh.patches) conditions[patch.name] = Wall{};
+  Solver one(mesh, {.mu_f = 0.01}, {.conditions = conditions});
+  EXPECT_TRUE(one.describe_step()[8].ends_with(" nothing"));
+  one.put_solid(
+      {.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1, .mu = 0.01});
+  EXPECT_NE(one.describe_step()[8].find("parabola of walls"), std::string::npos);
+}
+
 TEST_F(Description, SeveralSolidsAreToldApartByName) {
   Solver two(mesh, {.mu_f = 0.01}, {});
   for (const std::string name : {"left", "right"}) {

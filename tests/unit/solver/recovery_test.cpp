@@ -366,7 +366,9 @@ TEST(Recovery, EndsARunWhoseStepsBecomeTiny) {
   trial.steps(100, 1e-10);
   trial.steps(1, 1e-3);  // as after an event
   trial.steps(100, 1e-10);
+  const Real t = trial.solver.state().t;
   EXPECT_EQ(trial.solver.advance(1e-10), 0);
+  EXPECT_EQ(trial.solver.state().t, t);
   const std::string& failure = trial.solver.report().failure;
   EXPECT_NE(failure.find("a hundred steps in a row of less than a millionth of the largest"),
             std::string::npos)
