@@ -35,7 +35,7 @@ class EnergyBalance {
   Real stored() const { return stored_; }
   /// dW/dt.
   Real power() const { return power_; }
-  /// The largest E so far, without rounding.
+  /// The largest E so far, or what is rounding if that is more.
   Real largest() const { return largest_; }
   /// W: the work done.
   Real work() const { return work_; }
