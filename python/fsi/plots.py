@@ -50,7 +50,7 @@ PANELS = (
     Panel("iterations", "pressure iterations in a step", "flow", ("pressure_iterations",), "1"),
     Panel("wall", "wall time of a step", "flow", ("wall_per_step",), "s"),
 )
-MOST_IN_LEGEND = 8
+MOST_OF_SOLIDS = 8  # lines that a legend names
 OF_THE_RUN = ("dt", "divergence", "iterations", "wall")  # shown only where asked for
 KEYS = list(dict.fromkeys(panel.key for panel in PANELS))
 
@@ -192,10 +192,10 @@ def series(run, show=None, units=labels.Units()):
             ax.axhline(empty, color="0.45", linestyle="--", linewidth=1, label="empty pipe")
         values = np.concatenate([values for _, _, values in lines])
         _finish(ax, panel, units, dim, values, lines[0][0] if len(lines) == 1 < len(panel.columns) else "")
-        if 1 < len(lines) <= MOST_IN_LEGEND or empty is not None:
+        if panel.table == "solid" and len(run.solids) > 1 and len(lines) > MOST_OF_SOLIDS:
+            ax.set_title(f"{panel.title}, {len(run.solids)} solids", loc="left", y=1.0)
+        elif len(lines) > 1 or empty is not None:
             _legend(ax, len(lines) + (empty is not None))
-        elif len(lines) > 1:
-            ax.set_title(f"{panel.title}, {len(run.solids)} solids", loc="left")
     if run.failed():
         figure.suptitle(sections.end(run, units)[2:], x=0.01, ha="left", fontsize=9.5)
     return figure
