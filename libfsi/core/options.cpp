@@ -129,6 +129,10 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+void set_option(const std::string& name, const std::string& value) {
+  FSI_PETSC(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.c_str()));
+}
+
 Options::Options(std::string program, const std::string& purpose) : program_(std::move(program)) {
   PetscBool help = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, "-help", &help));

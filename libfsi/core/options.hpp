@@ -20,6 +20,9 @@ struct Spec {
   bool positive = false;                              ///< strictly > 0
 };
 
+/// Gives an option for the Options that are made after it, in place of what the user gave.
+void set_option(const std::string& name, const std::string& value);
+
 /// Reads options by name (without the dash) from PETSc's database: command line, YAML file,
 /// PETSC_OPTIONS. Every reader records name, resolved value and spec; with -help it prints them.
 /// Errors: Error{input} naming the option, the value found and the valid ones, for NaN, infinity,

@@ -208,10 +208,13 @@ int run(int argc, char** argv, const std::function<RunStatus()>& body) {
   try {
     start_petsc(arguments);
     watch_signals();
-    if (arguments.version)
+    if (arguments.version) {
       print_version(argv[0]);
-    else
-      code = static_cast<int>(body());
+    } else {
+      RunStatus status = body();
+      while (status == RunStatus::again) status = body();
+      code = static_cast<int>(status);
+    }
   } catch (const Error& error) {
     code = failed(rim, error.kind(), error.what());
   } catch (const std::bad_alloc&) {

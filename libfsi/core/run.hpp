@@ -7,13 +7,15 @@
 
 namespace fsi {
 
-/// How a run ended, when it ended well.
-enum class RunStatus : int { complete = 0, interrupted = 5 };
+/// How a run ended, when it ended well; again: it is not at its end, and its body is to be called
+/// once more.
+enum class RunStatus : int { complete = 0, interrupted = 5, again = -1 };
 
 /// Initialises MPI and PETSc (a first argument ending in .yaml or .yml is the options file), calls
-/// body, finalises; with -version prints program, version and commit instead. Returns the exit code
-/// of the program: the RunStatus, or the Kind of the Error thrown, whose sentence it prints once.
-/// An exception on one rank ends all ranks: none is left waiting.
+/// body, as long as that returns `again`, finalises; with -version prints program, version and
+/// commit instead. Returns the exit code of the program: the RunStatus, or the Kind of the Error
+/// thrown, whose sentence it prints once. An exception on one rank ends all ranks: none is left
+/// waiting.
 int run(int argc, char** argv, const std::function<RunStatus()>& body);
 
 /// One of the things a program of several commands does: PROGRAM NAME OPERANDS... [options].

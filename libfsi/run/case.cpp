@@ -152,9 +152,9 @@ OutputSetup read_output(Options& options, const std::string& driver) {
       options.flag("restart", false, "go on from the newest checkpoint in -output_dir");
   output.divide_anew = options.flag(
       "restart_divide", false,
-      "with -restart: divide the mesh anew, so that the ranks share the solids where they are now");
-  require(options.help() || output.restart || !output.divide_anew,
-          "option -restart_divide goes with -restart: a start divides the mesh by the solids");
+      "divide the mesh anew, so that the ranks share the solids where they are now: with -restart "
+      "at once, and during a run when one rank has twice the mean of their cells");
+  output.again = options.given("restart_again");
   output.end_when_empty = options.flag(
       "end_when_empty", false,
       "end the run once all solids have left the mesh: no cell is half full, or less than "
@@ -194,10 +194,11 @@ std::vector<std::string> patches_of(const Conditions& conditions, const Mesh& me
   return names;
 }
 
-/// With -restart_divide the cells that the solids of the newest checkpoint fill at least half.
+/// With -restart -restart_divide the cells that the solids of the newest checkpoint fill at least
+/// half.
 void share_as_in_checkpoint(MeshOptions& mesh, const std::vector<SolidSetup>& solids,
                             const OutputSetup& output) {
-  if (solids.empty() || !output.divide_anew) return;
+  if (solids.empty() || !output.restart || !output.divide_anew) return;
   std::vector<std::string> names;
   for (const SolidSetup& s : solids) names.push_back(s.solid.name);
   mesh.loads = [names, directory = output.directory](Index first, Index count) {

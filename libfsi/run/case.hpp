@@ -25,7 +25,8 @@ struct OutputSetup {
   /// Simulated time between field files, rows and checkpoints; 0: never.
   Real field_interval = 0, sample_interval = 0, checkpoint_interval = 0;
   bool restart = false;         ///< continue from the checkpoint in the directory
-  bool divide_anew = false;     ///< then divide the mesh by where the solids are
+  bool divide_anew = false;     ///< divide the mesh by where the solids are, not were
+  bool again = false;           ///< this body goes on from another one of the same program
   bool end_when_empty = false;  ///< once the solid has left the mesh
   bool describe_step = false;   ///< print what each call of a step does
   Real wall_seconds_max = 0;    ///< 0: no limit

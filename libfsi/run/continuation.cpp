@@ -124,6 +124,26 @@ void tell_of_changes(const std::string& sentence) {
   if (rank() == 0 && !sentence.empty()) std::fprintf(stderr, "fsi: notice: %s\n", sentence.c_str());
 }
 
+void require_same_solids(const Solver& solver, std::size_t before) {
+  const std::size_t now = solver.bodies().size();
+  require(now >= before,
+          "a solid was taken out of the solver while this Output exists: solids are "
+          "put in by put_solid, and none is taken out");
+  require(now == before,
+          "the solver has " + std::to_string(now) + " solids, but " + std::to_string(before) +
+              " when this Output was made: put all of them into the solver before making the " +
+              "Output; to add one later, end this Output with finish() before put_solid, and " +
+              "make another in a new folder");
+}
+
+void hand_on(const OutputSetup& output, Real seconds) {
+  constexpr Real least = 1e-3;  // 0 is no limit
+  set_option("restart", "true");
+  set_option("restart_again", "true");
+  if (output.wall_seconds_max > 0)
+    set_option("max_wall_time", print("%.17g", std::max(output.wall_seconds_max - seconds, least)));
+}
+
 std::string text_of_steps(std::int64_t all, std::int64_t first) {
   std::string text = print("%lld steps", static_cast<long long>(all));
   if (first == 0) return text;

@@ -1,5 +1,5 @@
 #pragma once
-// What a run goes on from: its own checkpoint, or the flow of another run.
+// What a run goes on from, its own checkpoint or the flow of another run, and with.
 
 #include <cstdint>
 #include <deque>
@@ -34,6 +34,14 @@ std::string changes_of_flow(const Solver& solver, const Case& setup, const std::
 
 /// Prints such a sentence, if it is not empty, as a notice.
 void tell_of_changes(const std::string& sentence);
+
+/// Tables, fields and checkpoints are of the `before` solids that were there at the start. Errors:
+/// Error{input} if the solver has another number of them.
+void require_same_solids(const Solver& solver, std::size_t before);
+
+/// Sets the options for the body that goes on from the checkpoint of this run in the same program.
+/// seconds: since this run began, the same on all ranks.
+void hand_on(const OutputSetup& output, Real seconds);
 
 /// "700 steps", and if the run began behind some of them, how many it made itself.
 std::string text_of_steps(std::int64_t all, std::int64_t first);

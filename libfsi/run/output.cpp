@@ -62,13 +62,11 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
   for (const Column& column : columns_)
     require(column.value != nullptr, "column \"" + column.name + "\" has an empty function");
   saving([this] { open(); });
+  uneven_ = false;  // just divided, it cannot be more even
   tell_of_missing_solids(solver_, setup.solids.size());
   std::string line = "limits on dt:";
-  for (const Limit& limit : limits(solver_, setup.time)) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), " %s %.3g", limit.name.c_str(), limit.dt);
-    line += limit.dt < 1e300 ? text.data() : " " + limit.name + " none";
-  }
+  for (const Limit& limit : limits(solver_, setup.time))
+    line += " " + limit.name + (limit.dt < 1e300 ? print(" %.3g", limit.dt) : " none");
   if (rank() != 0) return;
   std::printf("%s\n", line.c_str());
   if (!setup.output.describe_step) return;
@@ -150,7 +148,7 @@ io::Snapshot Output::snapshot() {
 }
 
 void Output::open() {
-  io::write_text(case_.output.directory + "/run.yaml", options_.yaml());
+  if (!case_.output.again) io::write_text(case_.output.directory + "/run.yaml", options_.yaml());
   open_tables();
   io::write_text(case_.output.directory + "/summary.json", summary("failed"));
 }
@@ -184,21 +182,8 @@ void Output::open_tables() {
   if (field_.due(solver_.state().t) || field_.at(solver_.state().t)) write_fields();
 }
 
-/// Tables, fields and checkpoints are of the solids that were there at the start.
-void Output::require_same_solids() const {
-  const std::size_t now = solver_.bodies().size(), before = records_.size();
-  require(now >= before,
-          "a solid was taken out of the solver while this Output exists: solids are "
-          "put in by put_solid, and none is taken out");
-  require(now == before,
-          "the solver has " + std::to_string(now) + " solids, but " + std::to_string(before) +
-              " when this Output was made: put all of them into the solver before making the " +
-              "Output; to add one later, end this Output with finish() before put_solid, and " +
-              "make another in a new folder");
-}
-
 bool Output::go_on() {
-  saving([this] { require_same_solids(); });
+  saving([this] { require_same_solids(solver_, records_.size()); });
   const Signal signal = pending_signal();
   const Real wall = case_.output.wall_seconds_max;
   if (signal == Signal::checkpoint) write_checkpoint();
@@ -206,7 +191,19 @@ bool Output::go_on() {
   const bool empty = !solver_.bodies().empty() &&
                      std::ranges::all_of(solver_.bodies(), [](auto& b) { return b.gone != 0; });
   if (empty && case_.output.end_when_empty) return false;
-  return !interrupted_ && solver_.report().failure.empty();
+  again_ = divides_anew();
+  return !interrupted_ && !again_ && solver_.report().failure.empty();
+}
+
+/// Whether the mesh is to be divided anew now; then a checkpoint holds the state, or all goes on.
+bool Output::divides_anew() {
+  constexpr std::int64_t between = 100;  // steps; a start costs as much as some tens of them
+  if (!uneven_ || !case_.output.divide_anew || interrupted_ || !solver_.report().failure.empty() ||
+      solver_.state().step < first_step_ + between)
+    return false;
+  uneven_ = false;
+  if (!saved()) write_checkpoint();
+  return saved();
 }
 
 Events Output::next_event() const {
@@ -231,7 +228,7 @@ void Output::after_step(const Limit& asked, Real dt) {
 }
 
 void Output::write_due(const Limit& asked, Real dt) {
-  require_same_solids();
+  require_same_solids(solver_, records_.size());
   const Limit limit = count(asked, dt);
   const State& s = solver_.state();
   watch_.end(s.t - dt, case_.time.end);
@@ -275,7 +272,7 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
   for (std::size_t i = 0; i < records_.size(); ++i)
     if (solver_.bodies()[i].gone == 0) watch_.strain(i, solver_, records_[i].soundness(), energy_);
-  watch_.balance(solver_);
+  uneven_ = watch_.balance(solver_, case_.output.divide_anew) || uneven_;
   return all;
 }
 
@@ -372,8 +369,8 @@ std::string Output::summary(const std::string& status) const {
 
 RunStatus Output::finish() {
   const std::string& failure = solver_.report().failure;
-  const bool complete = failure.empty() && !interrupted_;
-  saving([this] { require_same_solids(); });
+  const bool complete = failure.empty() && !interrupted_ && !again_;
+  saving([this] { require_same_solids(solver_, records_.size()); });
   tell_of_steps(solver_.state().step - first_step_, steps_told_);
   divergence_ = flow::divergence_max(solver_.state().phi, solver_.mesh());
   saving([&] {
@@ -382,7 +379,7 @@ RunStatus Output::finish() {
     if (!failure.empty()) write_last_fields();
     if (failure.empty() && interrupted_ && !saved())
       throw Error(ErrorKind::io, "the run was interrupted and its checkpoint could not be written");
-    const std::string status = complete ? "complete" : interrupted_ ? "interrupted" : "failed";
+    const std::string status = complete ? "complete" : failure.empty() ? "interrupted" : "failed";
     io::write_text(case_.output.directory + "/summary.json", summary(status));
   });
   finished_ = true;
@@ -390,10 +387,13 @@ RunStatus Output::finish() {
   if (!failure.empty()) throw Error(ErrorKind::numerics, failure + where());
   if (rank() == 0)
     std::printf("%s at t = %g after %s in %.1f s; files in %s%s\n",
-                interrupted_ ? "interrupted" : "complete", solver_.state().t,
-                text_of_steps(solver_.state().step, first_step_).c_str(), stopwatch_.seconds(),
-                case_.output.directory.c_str(), on.c_str());
-  return interrupted_ ? RunStatus::interrupted : RunStatus::complete;
+                again_         ? "mesh divided anew"
+                : interrupted_ ? "interrupted"
+                               : "complete",
+                solver_.state().t, text_of_steps(solver_.state().step, first_step_).c_str(),
+                stopwatch_.seconds(), case_.output.directory.c_str(), on.c_str());
+  if (again_) hand_on(case_.output, global_max(stopwatch_.seconds()));
+  return again_ ? RunStatus::again : interrupted_ ? RunStatus::interrupted : RunStatus::complete;
 }
 
 }  // namespace fsi

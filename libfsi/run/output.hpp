@@ -51,8 +51,9 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Collective. Whether the run may continue; false if a step failed for good, wall time is up or
-  /// the end was asked for. Errors: Error{input} if a solid was put in since.
+  /// Collective. Whether the run may continue; false if a step failed for good, wall time is up,
+  /// the end was asked for, or the mesh is to be divided anew. Errors: Error{input} if a solid was
+  /// put in since.
   bool go_on();
   /// The times that the next step must hit, a file's, and must not pass, a row's.
   Events next_event() const;
@@ -60,19 +61,20 @@ class Output {
   /// those of the files, after a checkpoint and summary.json are written, as far as possible;
   /// Error{input} if a solid was put in since.
   void after_step(const Limit& limit, Real dt);
-  /// Collective. Writes the last files and returns how the run ended. Errors: Error{numerics} with
-  /// the reason if the last step failed; there is a checkpoint of the state before it. Error{io} if
-  /// a file, or the checkpoint of an interrupted run, could not be written; Error{input} if a solid
-  /// was put in since.
+  /// Collective. Writes the last files and returns how the run ended. `again`, with -restart_divide
+  /// alone: the options now have -restart, and the body must return `again` in its turn. Errors:
+  /// Error{numerics} with the reason if the last step failed; there is a checkpoint of the state
+  /// before it. Error{io} if a file, or the checkpoint of an interrupted run, could not be written;
+  /// Error{input} if a solid was put in since.
   RunStatus finish();
 
  private:
   io::Snapshot snapshot();
   void go_on_from_checkpoint();
   void saving(const std::function<void()>& write);
-  void require_same_solids() const;
   std::string rescue(ErrorKind kind);
   bool saved() const;
+  bool divides_anew();
   std::string where() const;
   void open();
   void open_tables();
@@ -108,7 +110,7 @@ class Output {
   std::int64_t row_step_ = 0, first_step_ = 0, saved_step_ = -1, steps_told_ = 0;
   std::map<std::string, Real> limits_;  // number of steps by the limit that set their length
   std::string message_;                 // why the run ended, if no step failed
-  bool interrupted_ = false, finished_ = false;
+  bool interrupted_ = false, again_ = false, uneven_ = false, finished_ = false;
 };
 
 }  // namespace fsi

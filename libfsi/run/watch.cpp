@@ -197,16 +197,17 @@ void Watch::leaving(const Solver& solver) {
   }
 }
 
-void Watch::balance(const Solver& solver) {
+bool Watch::balance(const Solver& solver, bool divides) {
   constexpr Real uneven = 2, few = 30;  // cells a rank: so few cost little
-  if (ranks() == 1 || told_of_balance_) return;
+  if (ranks() == 1 || told_of_balance_) return false;
   const SolidCells cells = solid_cells(solver);
-  if (cells.mean < few || cells.busiest < uneven) return;
+  if (cells.mean < few || cells.busiest < uneven) return false;
   told_of_balance_ = true;
   say("notice", print("at t = %.4g one rank has %.2f times the mean of the solid's cells, and the "
-                      "others wait for it: ended by SIGINT or SIGTERM and gone on with -restart "
-                      "-restart_divide, the run shares them anew",
-                      solver.state().t, cells.busiest));
+                      "others wait for it",
+                      solver.state().t, cells.busiest) +
+                    (divides ? "" : "; with -restart_divide the run shares them anew"));
+  return true;
 }
 
 void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,

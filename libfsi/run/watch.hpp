@@ -48,8 +48,9 @@ class Watch {
   void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
-  /// Collective. A notice when the ranks no longer share the cells of the solids evenly.
-  void balance(const Solver& solver);
+  /// Collective. A notice when the ranks no longer share the cells of the solids evenly; whether
+  /// this call gives it. divides: the run will divide the mesh anew.
+  bool balance(const Solver& solver, bool divides);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
   /// stress is not that of its shape. Then they differ by more than half of the larger one, which
   /// is not small beside what the solid or the flow has. Another if it has more pieces than at the
