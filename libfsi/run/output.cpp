@@ -62,7 +62,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
   for (const Column& column : columns_)
     require(column.value != nullptr, "column \"" + column.name + "\" has an empty function");
   saving([this] { open(); });
-  uneven_ = false;  // just divided, it cannot be more even
+  if (setup.output.restart) uneven_ = false;  // just divided, it cannot be more even
   tell_of_missing_solids(solver_, setup.solids.size());
   std::string line = "limits on dt:";
   for (const Limit& limit : limits(solver_, setup.time))

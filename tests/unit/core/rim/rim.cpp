@@ -44,6 +44,10 @@ RunStatus body() {
   if (mode == "alone-io") fail_alone(ErrorKind::io);
   if (mode == "petsc") fail_in_petsc("nonsense");
   if (mode == "petsc-call") FSI_PETSC(PetscOptionsSetValue(nullptr, "no dash", ""));
+  if (mode == "again") {
+    set_option("mode", "complete"), set_option("value", "9");
+    return RunStatus::again;
+  }
   if (mode == "interrupted") return RunStatus::interrupted;
   if (mode == "signal") {
     if (rank() == ranks() - 1) std::raise(SIGTERM);

@@ -28,6 +28,7 @@ CASES = [
     ("-help", 0, "value > 0; default 1"),
     ("good.yaml -help", 0, "value > 0; default 1"),
     ("-mode interrupted", 5, ""),
+    ("-mode again -value 3", 0, "value 9"),
     ("-mode signal", 5, ""),
     ("-mode input", 2, "all ranks alike"),
     ("-mode numerics", 3, "all ranks alike"),
