@@ -1,7 +1,6 @@
 #include "libfsi/run/output.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -198,8 +197,8 @@ bool Output::go_on() {
 /// Whether the mesh is to be divided anew now; then a checkpoint holds the state, or all goes on.
 bool Output::divides_anew() {
   constexpr std::int64_t between = 100;  // steps; a start costs as much as some tens of them
-  if (!uneven_ || !case_.output.divide_anew || interrupted_ || !solver_.report().failure.empty() ||
-      solver_.state().step < first_step_ + between)
+  if (!uneven_ || !case_.output.divide_anew || case_.solids.empty() || interrupted_ ||
+      !solver_.report().failure.empty() || solver_.state().step < first_step_ + between)
     return false;
   uneven_ = false;
   if (!saved()) write_checkpoint();
@@ -377,7 +376,9 @@ RunStatus Output::finish() {
     if (complete && fields_ && fields_at_ < solver_.state().t) write_fields();
     if ((!complete || case_.output.checkpoint_interval > 0) && !saved()) write_checkpoint();
     if (!failure.empty()) write_last_fields();
-    if (failure.empty() && interrupted_ && !saved())
+    if (complete && case_.output.again && case_.output.checkpoint_interval <= 0)
+      checkpoints_.clear();
+    if (failure.empty() && !complete && !saved())
       throw Error(ErrorKind::io, "the run was interrupted and its checkpoint could not be written");
     const std::string status = complete ? "complete" : failure.empty() ? "interrupted" : "failed";
     io::write_text(case_.output.directory + "/summary.json", summary(status));

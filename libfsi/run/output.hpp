@@ -62,7 +62,8 @@ class Output {
   /// Error{input} if a solid was put in since.
   void after_step(const Limit& limit, Real dt);
   /// Collective. Writes the last files and returns how the run ended. `again`, with -restart_divide
-  /// alone: the options now have -restart, and the body must return `again` in its turn. Errors:
+  /// alone: the options now have -restart, and the body, with this Output alone, must return it in
+  /// its turn. Errors:
   /// Error{numerics} with the reason if the last step failed; there is a checkpoint of the state
   /// before it. Error{io} if a file, or the checkpoint of an interrupted run, could not be written;
   /// Error{input} if a solid was put in since.

@@ -58,8 +58,9 @@ PrescribedAdvectionOutput::PrescribedAdvectionOutput(const Case& setup, const Op
       lock_(io::make_directory(setup.output.directory)),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval) {
-  require(!setup.output.restart && setup.output.checkpoint_interval == 0,
-          "options -restart and -checkpoint_interval: fsi-advect runs in one go");
+  require(
+      !setup.output.restart && !setup.output.divide_anew && setup.output.checkpoint_interval == 0,
+      "options -restart, -restart_divide and -checkpoint_interval: fsi-advect runs in one go");
   io::write_text(setup.output.directory + "/run.yaml", options.yaml());
   const Row first = row();
   table_.emplace(setup.output.directory + "/solid.csv", names(first.entries));
