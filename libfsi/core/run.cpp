@@ -141,6 +141,17 @@ void print_version(const char* program) {
               commit().c_str(), PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
 }
 
+/// Calls the body, and once more as long as it asks for that. The option -restart_again is what a
+/// body gives to the next one. Errors: Error{input} if the user gave it.
+RunStatus call(const std::function<RunStatus()>& body) {
+  PetscBool given = PETSC_FALSE;
+  FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, "-restart_again", &given));
+  require(given == PETSC_FALSE, "option -restart_again is set by the program itself; leave it out");
+  RunStatus status = body();
+  while (status == RunStatus::again) status = body();
+  return status;
+}
+
 int end_petsc(int code) {
   PetscBool begun = PETSC_FALSE;
   PetscErrorCode ended = PetscInitialized(&begun);
@@ -211,9 +222,7 @@ int run(int argc, char** argv, const std::function<RunStatus()>& body) {
     if (arguments.version) {
       print_version(argv[0]);
     } else {
-      RunStatus status = body();
-      while (status == RunStatus::again) status = body();
-      code = static_cast<int>(status);
+      code = static_cast<int>(call(body));
     }
   } catch (const Error& error) {
     code = failed(rim, error.kind(), error.what());

@@ -61,7 +61,6 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
   for (const Column& column : columns_)
     require(column.value != nullptr, "column \"" + column.name + "\" has an empty function");
   saving([this] { open(); });
-  if (setup.output.restart) uneven_ = false;  // just divided, it cannot be more even
   tell_of_missing_solids(solver_, setup.solids.size());
   std::string line = "limits on dt:";
   for (const Limit& limit : limits(solver_, setup.time))
@@ -200,7 +199,6 @@ bool Output::divides_anew() {
   if (!uneven_ || !case_.output.divide_anew || case_.solids.empty() || interrupted_ ||
       !solver_.report().failure.empty() || solver_.state().step < first_step_ + between)
     return false;
-  uneven_ = false;
   if (!saved()) write_checkpoint();
   return saved();
 }
@@ -271,7 +269,7 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
       if (entry.course == Course::pressure) entry.value = std::numeric_limits<Real>::quiet_NaN();
   for (std::size_t i = 0; i < records_.size(); ++i)
     if (solver_.bodies()[i].gone == 0) watch_.strain(i, solver_, records_[i].soundness(), energy_);
-  uneven_ = watch_.balance(solver_, case_.output.divide_anew) || uneven_;
+  uneven_ = watch_.balance(solver_, case_.output.divide_anew, case_.output.restart);
   return all;
 }
 

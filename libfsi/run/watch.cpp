@@ -197,17 +197,21 @@ void Watch::leaving(const Solver& solver) {
   }
 }
 
-bool Watch::balance(const Solver& solver, bool divides) {
+bool Watch::balance(const Solver& solver, bool divides, bool goes_on) {
   constexpr Real uneven = 2, few = 30;  // cells a rank: so few cost little
-  if (ranks() == 1 || told_of_balance_) return false;
+  constexpr Real grown = 1.5;           // where a new division was no better
+  if (ranks() == 1 || (told_of_balance_ && !divides)) return false;
   const SolidCells cells = solid_cells(solver);
+  if (share_at_start_ < 0) share_at_start_ = goes_on ? cells.busiest : 0;
   if (cells.mean < few || cells.busiest < uneven) return false;
+  const bool worse = cells.busiest >= grown * share_at_start_;
+  if (told_of_balance_) return worse;
   told_of_balance_ = true;
   say("notice", print("at t = %.4g one rank has %.2f times the mean of the solid's cells, and the "
                       "others wait for it",
                       solver.state().t, cells.busiest) +
                     (divides ? "" : "; with -restart_divide the run shares them anew"));
-  return true;
+  return worse;
 }
 
 void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,

@@ -49,8 +49,9 @@ class Watch {
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
   /// Collective. A notice when the ranks no longer share the cells of the solids evenly; whether
-  /// this call gives it. divides: the run will divide the mesh anew.
-  bool balance(const Solver& solver, bool divides);
+  /// they share them worse than 1.5 times the first call found in a run that goes on, just divided.
+  /// divides: the run will divide the mesh anew.
+  bool balance(const Solver& solver, bool divides, bool goes_on);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
   /// stress is not that of its shape. Then they differ by more than half of the larger one, which
   /// is not small beside what the solid or the flow has. Another if it has more pieces than at the
@@ -66,6 +67,8 @@ class Watch {
   std::vector<Said> said_;  // of the bodies
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
        told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false;
+  Real share_at_start_ =
+      -1;  // of the busiest rank in the solid's cells, over the mean; -1: unknown
 };
 
 }  // namespace fsi

@@ -62,8 +62,10 @@ def main():
     apart = max(abs(a[name] - b[name]) for name in ("t", "x", "y", "z", "ux", "angle"))
     print(f"apart by {apart:.1e} at t = {a['t']:g}")
     itself = os.path.join(folder, "itself")
+    command[command.index("-checkpoint_interval") + 1] = "0"
     share_itself, notices_itself, bodies = run(command, itself, "-restart_divide", "-time_end", END,
                                                "-max_wall_time", "3600")
+    left = [name for name in os.listdir(itself) if name.startswith("checkpoint")]
     c, rows = last_row(itself), [number_of_rows(out) for out in (kept, itself)]
     by_itself = max(abs(a[name] - c[name]) for name in ("t", "x", "y", "z", "ux", "angle"))
     with open(os.path.join(itself, "summary.json"), encoding="utf-8") as file:
@@ -92,7 +94,8 @@ def main():
               "the same run": apart <= 1e-4,
               "divided by itself": bodies == 2 and notices_itself == 1 and share_itself < 2,
               "to the same end": by_itself <= 1e-4 and rows[0] == rows[1] and status == "complete",
-              "its run.yaml repeats the run": repeats}
+              "its run.yaml repeats the run": repeats,
+              "no checkpoint is left where none was asked for": not left}
     for sentence, holds in checks.items():
         print("ok  " if holds else "FAIL", sentence)
     return 0 if all(checks.values()) else 1

@@ -29,6 +29,7 @@ CASES = [
     ("good.yaml -help", 0, "value > 0; default 1"),
     ("-mode interrupted", 5, ""),
     ("-mode again -value 3", 0, "value 9"),
+    ("-mode again -restart_again true", 2, "-restart_again is set by the program itself"),
     ("-mode signal", 5, ""),
     ("-mode input", 2, "all ranks alike"),
     ("-mode numerics", 3, "all ranks alike"),
