@@ -276,10 +276,18 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
             "option -" + of + "path needs two different patches: from,to");
     require(!options.given(of + "axis"),
             "options -" + of + "path and -" + of + "axis exclude each other");
+    for (const std::string& patch : path) {
+      const std::string type = aside.text("patches_" + patch + "_type", patch, "");
+      require(type != "wall" && type != "symmetry",
+              "option -" + of + "path: patch \"" + patch + "\" is a " + type +
+                  "; the centre line goes from one opening to another");
+    }
     const flow::CentreLine line(mesh, path[0], path[1]);
-    require(s > 0 && s < line.length(), "option -" + of + "arc_length: the centre line from " +
-                                            path[0] + " to " + path[1] + " is " +
-                                            print("%.4g long", line.length()));
+    require(s > 0 && s < line.length(),
+            "option -" + of +
+                print("arc_length: %g is not between 0 and %.4g, the length of the ", s,
+                      line.length()) +
+                "centre line from " + path[0] + " to " + path[1]);
     const auto [at, along] = line.at(s);
     const shapes::Shape aligned = shapes::align(solid.about_origin, along);
     const Real turn = solid.angle * std::numbers::pi / 180;

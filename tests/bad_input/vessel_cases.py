@@ -44,6 +44,8 @@ def cases(Case):
              "a name of its own", damage=f.renamed("right", "left")),
         case("path from a patch to itself", yaml("solid: {shape: sphere, path: [left, left]}"), "-solid_path",
              "two different patches"),
+        case("path to a wall", yaml("solid: {shape: sphere, path: [left, bottom]}"), "-solid_path",
+             "\"bottom\" is a wall", "from one opening to another"),
         case("path and centre", yaml("solid: {shape: sphere, path: [left, right], center: [0.5, 0.5, 0]}"),
              "-solid_path", "-solid_center", "exclude each other"),
         case("path and centre of one of several", yaml("solids: {one: {shape: sphere, path: [left, right], "
