@@ -246,7 +246,9 @@ void check_cells(RawMesh& raw) {
   require(!raw.points.empty(), raw.file + " holds no nodes");
   require(!raw.types.empty(),
           raw.file +
-              " holds no cells: neither triangles or quads, nor tets, hexes, prisms or pyramids");
+              " holds no cells: neither triangles or quads, nor tets, hexes, prisms or pyramids; "
+              "where a geometry has Physical groups, gmsh saves these alone: put the cells in a "
+              "Physical Surface (2-D) or Volume (3-D)");
   check_points(raw);
   if (raw.dim == 2) flatten(raw);
   check_repeated(raw);

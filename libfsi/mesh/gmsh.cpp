@@ -101,6 +101,8 @@ class Reader {
 };
 
 void Reader::format() {
+  if (in_.next_is("$NOD"))
+    in_.fail("gmsh format 1 is not known; write the mesh as 2.2, 4.0 or 4.1");
   in_.expect("$MeshFormat");
   in_.set_section("$MeshFormat");
   version_ = in_.number<double>();

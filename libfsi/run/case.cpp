@@ -244,12 +244,29 @@ Case read_case(Options& options, const std::string& driver, const Vec3& path) {
   return result;
 }
 
+namespace {
+
+/// Whether a force of its own moves a solid.
+bool has_weight(const Case& setup) {
+  return std::ranges::any_of(setup.solids, [&](const SolidSetup& s) {
+    return norm(setup.physics.gravity + s.solid.acceleration) > 0;
+  });
+}
+
+/// How to find Re where no one gives a velocity.
+const char* text_of_velocity(const Case& setup) {
+  if (has_openings(setup.flow.conditions)) return "column reynolds of flow.csv";
+  return has_weight(setup) ? "rho U L / mu, U from ux, uy, uz of the solid's table"
+                           : "rho U L / mu, U = mean_velocity of flow.csv";
+}
+
+}  // namespace
+
 void tell_of_inertia(const Case& setup, Real length, Real velocity) {
   constexpr Real slow = 0.1;  // where it moves nothing
   const Physics& p = setup.physics;
-  const auto weighs = [&](const auto& s) { return norm(p.gravity + s.solid.acceleration) > 0; };
   if (velocity == 0 || p.rho * velocity * length / p.mu_f >= slow || setup.solids.empty() ||
-      std::ranges::any_of(setup.solids, weighs))
+      has_weight(setup))
     return;
   std::printf(
       "inertia hardly matters at this Re: larger densities, up to Re = 1, give the same motion in "
@@ -279,10 +296,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
     std::printf("%s\n", text_of(peak, p.mu_f / p.rho).c_str());
     length = peak.length, velocity = peak.top;
   } else if (velocity == 0)
-    std::printf("the flow decides on Re: %s\n",
-                has_openings(setup.flow.conditions)
-                    ? "column reynolds of flow.csv"
-                    : "rho U L / mu, U = mean_velocity of flow.csv");
+    std::printf("the flow decides on Re: %s\n", text_of_velocity(setup));
   else
     std::printf("Re = %.4g on length %g and velocity %g\n", p.rho * velocity * length / p.mu_f,
                 length, velocity);

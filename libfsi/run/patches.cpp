@@ -206,12 +206,20 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
     require(!options.given("patches_" + name), "option -patches_" + name +
                                                    ": a patch takes a type, patches: {" + name +
                                                    ": {type: ...}}; choose from: " + joined(types));
+  const auto joined_values = options.values();
+  const auto found = joined_values.find("mesh_periodic");
+  const std::string joined_patches = found == joined_values.end() ? "" : found->second;
   const auto check = [&](const std::vector<std::string>& given, const std::string& end) {
-    for (const std::string& text : given)
-      if (patch_of(text + end, mesh).empty())
-        throw Error(ErrorKind::input, "option -patches_" + text + end + " is of no patch" +
-                                          (end.empty() ? "" : ": \"" + text + "\" is unknown") +
-                                          "; " + has + meant(text, names_of(mesh)));
+    for (const std::string& text : given) {
+      if (!patch_of(text + end, mesh).empty()) continue;
+      const std::string option = "option -patches_" + text + end;
+      require(joined_patches.find(text) == std::string::npos || end.empty(),
+              option + ": -mesh_periodic " + joined_patches +
+                  " joins this patch with another, and a joined patch takes no condition; " + has);
+      throw Error(ErrorKind::input, option + " is of no patch" +
+                                        (end.empty() ? "" : ": \"" + text + "\" is unknown") +
+                                        "; " + has + meant(text, names_of(mesh)));
+    }
   };
   check(options.names("patches_", "_type"), "_type");
   check(options.names("patches_", ""), "");

@@ -248,7 +248,8 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        "): strain and shape no longer belong to each other; the mesh is too " +
                        "coarse for the strain");
   }
-  if (sound.pieces > said.pieces && !said.torn) {
+  // The opening may cut a solid in two on its way out.
+  if (sound.pieces > said.pieces && !said.torn && !leaves(body)) {
     said.torn = true;
     say("warning", at + "the " + name_of(body) + print(" is in %d pieces", sound.pieces) +
                        " of at least 1 % of its volume (column pieces of " + table_of(body) +

@@ -58,6 +58,10 @@ void Solver::put_solid(const Solid& solid) {
   require_bodies();
   require(!projection_.orthogonal(),
           "an orthogonal projection (-flow_projection) is for a fluid without solids");
+  require(mesh_.dim == 3 || solid.acceleration.z == 0,
+          print("the acceleration of a solid has the component %g along z, but a mesh of two "
+                "dimensions lies in the x-y plane, and nothing moves out of it",
+                solid.acceleration.z));
   for (const Body& other : bodies_)
     require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
   std::vector<Patch> mirrors, walls;

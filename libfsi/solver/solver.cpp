@@ -6,6 +6,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
 namespace {
@@ -29,6 +30,19 @@ std::vector<OfPlaceAndTime> over_time(const std::vector<Condition>& conditions,
   }
   if (force) given.emplace_back(force, std::span(mesh.C).first(mesh.n_owned));
   return given;
+}
+
+/// Errors: Error{input} where what moves the fluid points out of a mesh of two dimensions.
+void require_in_plane(const Physics& physics, const OfPlaceAndTime::Function& force,
+                      const Mesh& mesh) {
+  if (mesh.dim == 3) return;
+  const Real z = force && mesh.n_owned > 0 ? force(mesh.C[0], 0).z : 0;
+  const auto along_z = [](const char* name, Real value) {
+    return std::string(name) + print(" has the component %g along z", value) +
+           ", but a mesh of two dimensions lies in the x-y plane, and nothing moves out of it";
+  };
+  require(physics.gravity.z == 0, along_z("gravity", physics.gravity.z));
+  require(all_of_ranks(z == 0), along_z("the body force", z));
 }
 
 }  // namespace
@@ -72,6 +86,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       wall_parabola_(mesh, conditions_, u_stencil_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
       calls_(profile_) {
+  require_in_plane(physics, driving_force_, mesh);
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
   prescribed_ = leaves_ && std::ranges::none_of(conditions_, fixes_pressure);

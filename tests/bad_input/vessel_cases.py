@@ -29,6 +29,13 @@ def cases(Case):
         case("patch too many", yaml(middle="{type: wall}"), "-patches_middle_type", "\"middle\""),
         case("patch misspelt without its type", yaml(rigth="{pressure: 3}"), "-patches_rigth_pressure",
              "left, right"),
+        case("gravity out of the plane", yaml("gravity: [0, 0, -10]"), "gravity has the component -10 along z"),
+        case("force out of the plane", yaml(), "the body force has the component 1 along z",
+             arguments="-flow_body_force 0,0,1"),
+        case("acceleration out of the plane", yaml("solid: {shape: sphere, radius: 0.1, center: [0.5, 0.5, 0], "
+             "acceleration: [0, 0, 1]}"), "the acceleration of a solid has the component 1 along z"),
+        case("condition at a joined patch", yaml(), "-patches_bottom_type", "-mesh_periodic bottom,top joins",
+             "takes no condition", arguments="-mesh_periodic bottom,top"),
         case("patch missing", yaml(top=None), "\"top\"", "-patches_top_type", "windkessel"),
         case("patch without a key", yaml(top="wall"), "-patches_top", "top: {type: ...}"),
         case("key of a patch misspelt", yaml(right="{type: pressure, presure: 3}"),
