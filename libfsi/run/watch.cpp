@@ -131,7 +131,9 @@ void Watch::end(Real begin, Real end) {
 void Watch::flow(const std::vector<Entry>& row, const EnergyBalance& energy, Real dt, Real t) {
   for (const Entry& entry : row) {
     if (entry.name == "reynolds") reynolds(entry.value);
-    if (entry.name == "dissipation") dissipation(entry.value, energy, dt, t);
+    if (entry.name != "dissipation") continue;
+    dissipation(entry.value, energy, dt, t);
+    source(entry.value, energy, dt, t);
   }
 }
 
@@ -147,6 +149,34 @@ void Watch::dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t
             "a slow flow on triangles or tetrahedra with a solid needs larger densities "
             "(doc/howto/vessel.md)",
             t, taken, energy.power(), energy.stored()));
+}
+
+void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
+  constexpr int few = 20;               // rows
+  constexpr Real often = 2, odd = 0.5;  // of the energy stored meanwhile; of what viscosity takes
+  constexpr Real little = 0.1;          // of the largest energy of the run
+  if (told_of_source_ || !one_viscosity_) return;
+  Span& s = span_;
+  if (dt > 0 && s.rows >= 0) {
+    s.taken += (t - s.t) * (s.rate + taken) / 2;
+    s.t = t, s.rate = taken, s.largest = std::max(s.largest, energy.stored()), ++s.rows;
+    if (s.rows < few || s.taken < std::max(often * s.largest, little * energy.largest())) return;
+    const Real made = s.taken + energy.stored() - s.stored - (energy.work() - s.work);
+    if (made > odd * s.taken) {
+      told_of_source_ = true;
+      say("warning",
+          print("between t = %.4g and %.4g %.0f %% of what viscosity takes (column dissipation of "
+                "flow.csv) comes from nothing: neither work nor stored energy gave it; the steps "
+                "are too long or the mesh too coarse",
+                s.begin, t, 100 * made / s.taken));
+    }
+  }
+  s = {.begin = t,
+       .work = energy.work(),
+       .stored = energy.stored(),
+       .t = t,
+       .rate = taken,
+       .rows = 0};
 }
 
 void Watch::reynolds(Real number) {
@@ -256,6 +286,11 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        "): the mesh is too coarse for it, or the solid too soft; what follows is " +
                        "not to be believed");
   }
+}
+
+Watch watch_of(const Solver& solver) {
+  const auto as_fluid = [&](const Body& body) { return body.mu == solver.physics().mu_f; };
+  return Watch(solver.bodies().size(), std::ranges::all_of(solver.bodies(), as_fluid));
 }
 
 }  // namespace fsi

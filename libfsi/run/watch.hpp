@@ -26,8 +26,10 @@ std::string tell_of_no_finish();
 /// Prints each of these once in a run, on rank 0.
 class Watch {
  public:
-  /// bodies: count of solids.
-  explicit Watch(std::size_t bodies) : said_(bodies) {}
+  /// bodies: count of solids. one_viscosity: they have that of the fluid. With another the
+  /// dissipation in the cells of the surface is that of a mean, and too large.
+  explicit Watch(std::size_t bodies, bool one_viscosity = true)
+      : said_(bodies), one_viscosity_(one_viscosity) {}
 
   /// Collective. A warning if `made`, the part of the energy that the scheme made, is suspicious.
   /// If it is most of the energy, the result is the reason why the run must end, since it is wrong.
@@ -35,12 +37,17 @@ class Watch {
   std::string energy(Real made, const Solver& solver);
   /// A warning where a step begins at or past the end of the run.
   void end(Real begin, Real end);
-  /// The next two, by the columns `reynolds` and `dissipation` of a row of flow.csv.
+  /// The next three, by the columns `reynolds` and `dissipation` of a row of flow.csv; dt: the last
+  /// step, 0 as long as the run is not judged.
   void flow(const std::vector<Entry>& row, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if viscosity takes more energy in a step of length dt than all that is stored, and
   /// ten times the work. Then the velocity alternates from cell to cell. taken: by viscosity per
   /// time.
   void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
+  /// A warning if half of what viscosity takes comes from nothing. It is judged over the rows in
+  /// which viscosity takes twice the largest energy stored, at least twenty:
+  ///   made = integral of the dissipation + rise of the stored energy - work.
+  void source(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if the flow through the openings is beyond a laminar one in a vessel.
   void reynolds(Real number);
   /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
@@ -64,11 +71,21 @@ class Watch {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false;
     int pieces = -1;  // at first
   };
+  /// The rows over which viscosity, work and stored energy are compared.
+  struct Span {
+    Real begin = 0, work = 0, stored = 0;          // at its first row
+    Real t = 0, rate = 0, taken = 0, largest = 0;  // at the last; of stored
+    int rows = -1;                                 // -1: there is none yet
+  };
   std::vector<Said> said_;  // of the bodies
+  Span span_;
+  bool one_viscosity_, told_of_source_ = false;
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
        told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false;
-  Real share_at_start_ =
-      -1;  // of the busiest rank in the solid's cells, over the mean; -1: unknown
+  Real share_at_start_ = -1;  // the busiest rank's in the solid's cells, over the mean
 };
+
+/// The one for the solids that are in the solver.
+Watch watch_of(const Solver& solver);
 
 }  // namespace fsi

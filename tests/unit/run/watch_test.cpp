@@ -119,6 +119,28 @@ TEST(Watch, AVelocityThatAlternatesIsToldByItsDissipation) {
   EXPECT_EQ(said(11, 0.1), "") << "once";
 }
 
+// What viscosity takes was stored before, or put in.
+TEST(Watch, DissipationThatNothingFeedsIsTold) {
+  const Mesh mesh =
+      test::read_box({.n = {4, 4, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  Solver solver(mesh, {.rho = 2, .mu_f = 0.1}, {});
+  solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });  // a stored energy of 1
+  const EnergyBalance energy(solver);
+  const auto said = [&](Watch watch, Real taken, int rows) {
+    testing::internal::CaptureStderr();
+    for (int i = 0; i <= rows; ++i) watch.flow({{"dissipation", taken}}, energy, 0.01, 0.1 * i);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(Watch(0), 0.9, 22), "") << "less than twice what is stored";
+  EXPECT_EQ(said(Watch(0), 9, 19), "") << "of too few rows";
+  EXPECT_EQ(said(Watch(1, false), 9, 20), "") << "of a mean viscosity";
+  const std::string text = said(Watch(0), 9, 60);
+  EXPECT_EQ(text.find("between t = 0 and 2 100 % of what viscosity takes") != std::string::npos,
+            rank() == 0)
+      << text;
+  EXPECT_EQ(text.rfind("between"), text.find("between")) << "once";
+}
+
 // Of 0.126: what a solid's specks are, which the flow sweeps ahead of it, is no leaving.
 TEST(Watch, SpecksAreNoSolidThatLeaves) {
   Disc disc;
