@@ -213,9 +213,10 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
     for (const std::string& text : given) {
       if (!patch_of(text + end, mesh).empty()) continue;
       const std::string option = "option -patches_" + text + end;
-      require(joined_patches.find(text) == std::string::npos || end.empty(),
-              option + ": -mesh_periodic " + joined_patches +
-                  " joins this patch with another, and a joined patch takes no condition; " + has);
+      require(
+          ("," + joined_patches + ",").find("," + text + ",") == std::string::npos || end.empty(),
+          option + ": -mesh_periodic " + joined_patches +
+              " joins this patch with another, and a joined patch takes no condition; " + has);
       throw Error(ErrorKind::input, option + " is of no patch" +
                                         (end.empty() ? "" : ": \"" + text + "\" is unknown") +
                                         "; " + has + meant(text, names_of(mesh)));
