@@ -199,6 +199,7 @@ bool Output::divides_anew() {
   if (!uneven_ || !case_.output.divide_anew || case_.solids.empty() || interrupted_ ||
       !solver_.report().failure.empty() || solver_.state().step < first_step_ + between)
     return false;
+  uneven_ = false;  // where no file can be written, the next row asks again
   if (!saved()) write_checkpoint();
   return saved();
 }

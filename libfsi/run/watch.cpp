@@ -155,9 +155,11 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
   constexpr int few = 20;               // rows
   constexpr Real often = 2, odd = 0.5;  // of the energy stored meanwhile; of what viscosity takes
   constexpr Real little = 0.1;          // of the largest energy of the run
+  constexpr Real far = 20;              // steps between two rows: an integral over them is inexact
   if (told_of_source_ || !one_viscosity_) return;
   Span& s = span_;
-  if (dt > 0 && s.rows >= 0) {
+  if (dt <= 0) return;
+  if (s.rows >= 0 && t - s.t <= far * dt) {
     s.taken += (t - s.t) * (s.rate + taken) / 2;
     s.t = t, s.rate = taken, s.largest = std::max(s.largest, energy.stored()), ++s.rows;
     if (s.rows < few || s.taken < std::max(often * s.largest, little * energy.largest())) return;
@@ -176,6 +178,7 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
        .stored = energy.stored(),
        .t = t,
        .rate = taken,
+       .largest = energy.stored(),
        .rows = 0};
 }
 
@@ -234,7 +237,9 @@ bool Watch::balance(const Solver& solver, bool divides, bool goes_on) {
   const SolidCells cells = solid_cells(solver);
   if (share_at_start_ < 0) share_at_start_ = goes_on ? cells.busiest : 0;
   if (cells.mean < few || cells.busiest < uneven) return false;
-  const bool worse = cells.busiest >= grown * share_at_start_;
+  // The most there can be is all on one rank.
+  const Real asked = std::min(grown * share_at_start_, (share_at_start_ + ranks()) / 2);
+  const bool worse = cells.busiest >= asked;
   if (told_of_balance_) return worse;
   told_of_balance_ = true;
   say("notice", print("at t = %.4g one rank has %.2f times the mean of the solid's cells, and the "

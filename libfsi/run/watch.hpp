@@ -45,7 +45,8 @@ class Watch {
   /// time.
   void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if half of what viscosity takes comes from nothing. It is judged over the rows in
-  /// which viscosity takes twice the largest energy stored, at least twenty:
+  /// which viscosity takes twice the largest energy stored, at least twenty. Rows more than twenty
+  /// steps apart are not judged:
   ///   made = integral of the dissipation + rise of the stored energy - work.
   void source(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if the flow through the openings is beyond a laminar one in a vessel.

@@ -128,7 +128,8 @@ TEST(Watch, DissipationThatNothingFeedsIsTold) {
   const EnergyBalance energy(solver);
   const auto said = [&](Watch watch, Real taken, int rows) {
     testing::internal::CaptureStderr();
-    for (int i = 0; i <= rows; ++i) watch.flow({{"dissipation", taken}}, energy, 0.01, 0.1 * i);
+    for (int i = 0; i <= rows; ++i)
+      watch.flow({{"dissipation", taken}}, energy, 0.01, 0.1 * i);  // ten steps apart
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said(Watch(0), 0.9, 22), "") << "less than twice what is stored";
@@ -139,6 +140,10 @@ TEST(Watch, DissipationThatNothingFeedsIsTold) {
             rank() == 0)
       << text;
   EXPECT_EQ(text.rfind("between"), text.find("between")) << "once";
+  testing::internal::CaptureStderr();
+  Watch watch(0);
+  for (int i = 0; i <= 60; ++i) watch.flow({{"dissipation", 9}}, energy, 0.004, 0.1 * i);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "rows too far apart";
 }
 
 // Of 0.126: what a solid's specks are, which the flow sweeps ahead of it, is no leaving.
