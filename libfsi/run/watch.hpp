@@ -44,10 +44,10 @@ class Watch {
   /// ten times the work. Then the velocity alternates from cell to cell. taken: by viscosity per
   /// time.
   void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
-  /// A warning if half of what viscosity takes comes from nothing. It is judged over the rows in
-  /// which viscosity takes twice the largest energy stored, at least twenty. Rows more than twenty
-  /// steps apart are not judged:
+  /// A warning if half of what viscosity takes comes from nothing:
   ///   made = integral of the dissipation + rise of the stored energy - work.
+  /// It is judged over the rows in which viscosity takes twice the largest energy stored, at least
+  /// twenty. Rows more than twenty steps apart are not judged.
   void source(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if the flow through the openings is beyond a laminar one in a vessel.
   void reynolds(Real number);
@@ -57,7 +57,8 @@ class Watch {
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
   /// Collective. A notice when the ranks no longer share the cells of the solids evenly; whether
-  /// they share them worse than 1.5 times the first call found in a run that goes on, just divided.
+  /// a new division is worth it. In a run that goes on, just divided, the busiest rank's share must
+  /// have grown since the first call: to 1.5 times, or half the way to all cells on one rank.
   /// divides: the run will divide the mesh anew.
   bool balance(const Solver& solver, bool divides, bool goes_on);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
