@@ -237,6 +237,7 @@ void Output::write_due(const Limit& asked, Real dt) {
   watch_.taken_back(solver_.report(), s.step - first_step_, asked);
   watch_.leaving(solver_);
   write_rows(limit, dt);
+  watch_.between_rows(solver_, energy_, energy_.started() ? dt : 0);
   if (field_.due(s.t)) write_fields();
   if (checkpoint_.due(s.t)) write_checkpoint();
   constexpr Real seconds_between = 1;
@@ -261,8 +262,7 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
   all[0].entries = flow_row(solver_, elastic_energy, limit, dt, wall_per_step);
   all[0].entries.push_back({"work", energy_.work()});
   all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
-  const bool started = s.step > first_step_ + EnergyBalance::start;
-  watch_.flow(all[0].entries, energy_, started ? dt : 0, s.t);
+  watch_.flow(all[0].entries, energy_, energy_.started() ? dt : 0, s.t);
   for (const Column& column : columns_)
     all[0].entries.push_back({column.name, column.value(solver_), column.course});
   if (s.step == 0)

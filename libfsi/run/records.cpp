@@ -118,15 +118,6 @@ Real pressure_span(const Solver& solver) {
   return std::max(global_max(high) - global_min(low), Real{0});
 }
 
-Real dissipation(Solver& solver) {
-  const Mesh& mesh = solver.mesh();
-  CellField<Real> mu(mesh, solver.physics().mu_f);
-  for (const Body& body : solver.bodies())
-    for (Index c = 0; c < mesh.n_owned; ++c)
-      mu[c] += body.alpha[c] * (body.mu - solver.physics().mu_f);
-  return analysis::dissipation(mu, solver.velocity_gradient(), mesh);
-}
-
 void add(std::vector<Entry>& row, const std::vector<std::string>& columns, const Vec3& v,
          Course course = Course::smooth) {
   for (int i = 0; i < 3; ++i) row.push_back({columns[static_cast<std::size_t>(i)], v[i], course});
@@ -172,6 +163,15 @@ Real limit_code(const std::string& name) {
 }
 
 }  // namespace
+
+Real dissipation(Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  CellField<Real> mu(mesh, solver.physics().mu_f);
+  for (const Body& body : solver.bodies())
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      mu[c] += body.alpha[c] * (body.mu - solver.physics().mu_f);
+  return analysis::dissipation(mu, solver.velocity_gradient(), mesh);
+}
 
 std::vector<std::string> names(const std::vector<Entry>& row) {
   std::vector<std::string> result;

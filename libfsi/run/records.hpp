@@ -22,7 +22,7 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// solids.
 /// - pressure_drop: between the patches inlet and outlet, S times the period in a periodic channel.
 /// - pressure_span: max p - min p of the cells without solid.
-/// - dissipation: integral 2 mu D : D, mu by the fractions of the cell.
+/// - dissipation: that of `dissipation`.
 /// - flow_rate: through the patch `outlet`, or the section of a periodic channel.
 /// - us and dt: as they are.
 /// - limit: what set dt. 0 nothing, 1 -time_step, 2 advective, 3 elastic, 4 start,
@@ -36,6 +36,9 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// the patch where it is largest.
 std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& limit, Real dt,
                             Real wall_per_step);
+
+/// Collective. The integral of 2 mu D : D, mu by the fractions of the cell.
+Real dissipation(Solver& solver);
 
 /// Figures by which the result of a solid is judged.
 struct Soundness {

@@ -46,9 +46,11 @@ class Watch {
   void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if half of what viscosity takes comes from nothing:
   ///   made = integral of the dissipation + rise of the stored energy - work.
-  /// It is judged over the rows in which viscosity takes twice the largest energy stored, at least
-  /// twenty. Rows more than twenty steps apart are not judged.
+  /// It is judged each time when viscosity has taken twice the largest energy stored meanwhile, by
+  /// twenty values of `taken` or more. Values more than twenty steps apart are not judged.
   void source(Real taken, const EnergyBalance& energy, Real dt, Real t);
+  /// Collective. After every step; dt as for `flow`. `source`, if its last value is five steps old.
+  void between_rows(Solver& solver, const EnergyBalance& energy, Real dt);
   /// A warning if the flow through the openings is beyond a laminar one in a vessel.
   void reynolds(Real number);
   /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
@@ -73,11 +75,11 @@ class Watch {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false;
     int pieces = -1;  // at first
   };
-  /// The rows over which viscosity, work and stored energy are compared.
+  /// The time over which viscosity, work and stored energy are compared.
   struct Span {
-    Real begin = 0, work = 0, stored = 0;          // at its first row
-    Real t = 0, rate = 0, taken = 0, largest = 0;  // at the last; of stored
-    int rows = -1;                                 // -1: there is none yet
+    Real begin = 0, work = 0, stored = 0;          // at its begin
+    Real t = 0, rate = 0, taken = 0, largest = 0;  // at the last value; of stored
+    int values = -1;                               // after the first; -1: there is none yet
   };
   std::vector<Said> said_;  // of the bodies
   Span span_;

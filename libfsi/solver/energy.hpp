@@ -45,6 +45,8 @@ class EnergyBalance {
   /// judged. Both count as no less than the rounding of the elastic energy, and than the error of
   /// the kinetic energy of a force that the pressure balances.
   Real part_made() const;
+  /// Whether the first steps are over, so that energies tell something.
+  bool started() const { return steps_ > start; }
 
   /// Lists what a restart continues from; part of a checkpoint.
   void list(io::Snapshot& snapshot);

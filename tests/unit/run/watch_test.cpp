@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
@@ -144,6 +145,28 @@ TEST(Watch, DissipationThatNothingFeedsIsTold) {
   Watch watch(0);
   for (int i = 0; i <= 60; ++i) watch.flow({{"dissipation", 9}}, energy, 0.004, 0.1 * i);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "rows too far apart";
+}
+
+// A shear wave that has nothing to live on, with no row at all.
+TEST(Watch, DissipationIsJudgedBetweenRows) {
+  const Mesh mesh =
+      test::read_box({.n = {4, 16, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  Solver solver(mesh, {.rho = 2, .mu_f = 0.1}, {});
+  const Real k = 2 * std::numbers::pi;
+  solver.start([k](const Vec3& x) { return Vec3{std::sin(k * x.y), 0, 0}; });
+  const EnergyBalance energy(solver);
+  const auto said = [&](Real dt) {
+    Watch watch(0);
+    testing::internal::CaptureStderr();
+    for (int i = 0; i <= 200; ++i) {
+      solver.state().t = 0.02 * i;
+      watch.between_rows(solver, energy, dt);
+    }
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(0), "") << "not judged yet";
+  const std::string text = said(0.02);
+  EXPECT_EQ(text.find("100 % of what viscosity takes") != std::string::npos, rank() == 0) << text;
 }
 
 // Of 0.126: what a solid's specks are, which the flow sweeps ahead of it, is no leaving.
