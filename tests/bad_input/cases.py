@@ -68,6 +68,8 @@ OPTIONS = [
     option("solid too heavy", "-solid_shape sphere -solid_density 21", "-solid_density",
            "0.1 to 20 times -fluid_density"),
     option("density zero", "-fluid_density 0", "-fluid_density", "value > 0"),
+    option("a division anew of a run in one go", "-solid_shape sphere -solid_radius 0.15 -solid_center 0.5,0.5,0"
+           " -restart_divide", "-restart_divide", "in one go", driver="fsi-advect"),
     option("value missing", "-time_end", "-time_end"),
     option("end of time zero", "-time_end 0", "-time_end", "value > 0"),
     option("Courant number too large", "-time_courant 7", "-time_courant", "<= 1"),
@@ -156,6 +158,7 @@ MESH = [
     mesh("empty file", f.empty, "empty"),
     mesh("garbage", f.garbage, "garbage.msh"),
     mesh("truncated", f.truncated, "truncated.msh"),
+    mesh("format 1", f.oldest, "format 1", "2.2, 4.0 or 4.1"),
     mesh("version 1", f.version("1.0"), "2.2, 4.0 or 4.1"),
     mesh("version 3", f.version("3.0"), "2.2, 4.0 or 4.1"),
     mesh("version 5", f.version("5"), "2.2, 4.0 or 4.1"),

@@ -32,6 +32,10 @@ def truncated(text):
     return text[:int(0.6 * len(text))]
 
 
+def oldest(_):
+    return "$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n"
+
+
 def version(number):
     def damage(text):
         return text.replace("2.2 0 8", f"{number} 0 8", 1)
