@@ -155,11 +155,11 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
   constexpr int few = 20;               // values
   constexpr Real often = 2, odd = 0.5;  // of the energy stored meanwhile; of what viscosity takes
   constexpr Real little = 0.1;          // of the largest energy of the run
-  constexpr Real far = 20;  // steps between two values: an integral over them is inexact
   if (told_of_source_ || !one_viscosity_) return;
   Span& s = span_;
   if (dt <= 0) return;
-  if (s.values >= 0 && t - s.t <= far * dt) {
+  steps_since_ = 0;
+  if (s.values >= 0) {
     s.taken += (t - s.t) * (s.rate + taken) / 2;
     s.t = t, s.rate = taken, s.largest = std::max(s.largest, energy.stored()), ++s.values;
     if (s.values < few || s.taken < std::max(often * s.largest, little * energy.largest())) return;
@@ -183,11 +183,10 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
 }
 
 void Watch::between_rows(Solver& solver, const EnergyBalance& energy, Real dt) {
-  constexpr Real often = 5;  // steps
+  constexpr int often = 5;
   if (told_of_source_ || !one_viscosity_ || dt <= 0) return;
-  const Real t = solver.state().t;
-  if (span_.values < 0 || t - span_.t >= often * dt)
-    source(fsi::dissipation(solver), energy, dt, t);
+  if (++steps_since_ < often) return;
+  source(fsi::dissipation(solver), energy, dt, solver.state().t);
 }
 
 void Watch::reynolds(Real number) {

@@ -46,8 +46,8 @@ class Watch {
   void dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// A warning if half of what viscosity takes comes from nothing:
   ///   made = integral of the dissipation + rise of the stored energy - work.
-  /// It is judged each time when viscosity has taken twice the largest energy stored meanwhile, by
-  /// twenty values of `taken` or more. Values more than twenty steps apart are not judged.
+  /// It is judged each time when viscosity has taken twice the largest energy stored meanwhile and
+  /// a tenth of the largest of the run, by twenty values of `taken` or more.
   void source(Real taken, const EnergyBalance& energy, Real dt, Real t);
   /// Collective. After every step; dt as for `flow`. `source`, if its last value is five steps old.
   void between_rows(Solver& solver, const EnergyBalance& energy, Real dt);
@@ -83,6 +83,7 @@ class Watch {
   };
   std::vector<Said> said_;  // of the bodies
   Span span_;
+  int steps_since_ = 0;  // the last value of `source`
   bool one_viscosity_, told_of_source_ = false;
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
        told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false;

@@ -28,6 +28,9 @@ TEST(EnergyBalance, TheWorkOfAForceIsStored) {
   EXPECT_NEAR(energy.stored(), 0.5 * 2 * std::pow(3 * 0.2 / 2, 2), 1e-10);
   EXPECT_NEAR(energy.work(), energy.stored(), 1e-10);
   EXPECT_LE(energy.part_made(), 1e-9);
+  EXPECT_FALSE(energy.started());
+  energy.add(solver, 0.01);
+  EXPECT_TRUE(energy.started());
 }
 
 // The pressure bears a uniform force in a closed box. What a step leaves of it in cells at walls is
