@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
@@ -59,6 +60,17 @@ Real Courant::rate(const FaceField<Real>& phi) const {
   Real largest = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) largest = std::max(largest, of_cell(c));
   return global_max(largest);
+}
+
+Real Courant::upwind_dt(const FaceField<Real>& phi, bool implicit_served) const {
+  constexpr Real stable = 0.25;
+  Real rate = 0;
+  if (bound_ == upwind)
+    for (Index c = 0; c < mesh_.n_owned; ++c)
+      if (!(implicit_served && mesh_.simplex(c)))
+        rate = std::max(rate, courant_rate(phi, mesh_, c));
+  rate = global_max(rate);
+  return rate > 0 ? stable / rate : std::numeric_limits<Real>::max();
 }
 
 std::vector<Real> Courant::of_neighbourhood(const std::vector<Real>& swept) const {

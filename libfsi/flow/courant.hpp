@@ -40,6 +40,12 @@ class Courant {
   Real explicit_part() const { return bound_; }
   /// Collective. The largest r_c [1 / time].
   Real rate(const FaceField<Real>& phi) const;
+  /// Collective. How long a step may be for upwind convection that is explicit: the Courant number
+  /// 0.25 in every cell, or in all but triangles and tetrahedra where `add_implicit` serves these.
+  /// A velocity that alternates from cell to cell is damped by 2 Co in a step, and
+  /// Adams-Bashforth of third order is stable with 6/11 at most. The largest number with central
+  /// convection.
+  Real upwind_dt(const FaceField<Real>& phi, bool implicit_served) const;
   /// Collective. r_c of the owned cells from 1/2 sum_f |phi_f| of theirs.
   std::vector<Real> of_neighbourhood(const std::vector<Real>& swept) const;
   /// Collective. kappa_f += the term above at inner faces. rho: the largest density.

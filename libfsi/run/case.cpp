@@ -113,9 +113,13 @@ TimeSetup read_time(Options& options) {
   TimeSetup time;
   time.end =
       options.real("time_end", 1, {.help = "end of the run", .unit = "time", .positive = true});
-  time.courant =
-      options.real("time_courant", 0.5,
-                   {.help = "largest Courant number", .unit = "", .max = 1, .positive = true});
+  time.courant = options.real(
+      "time_courant", 0.5,
+      {.help = "largest Courant number; with upwind convection it is 0.25 at most in cells "
+               "other than triangles and tetrahedra",
+       .unit = "",
+       .max = 1,
+       .positive = true});
   time.step = options.real(
       "time_step", 0, {.help = "fixed step; 0: as the limits allow", .unit = "time", .min = 0});
   time.step_max =
@@ -335,7 +339,8 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   if (time.step > 0) return {{time.step, "fixed"}};
   // The motion of the solid has a limit of its own under the same name.
   const Real carried = solver.body() != nullptr ? solver.carried_dt() : Limit{}.dt;
-  std::vector<Limit> all{{std::min(solver.advective_dt(time.courant), carried), "advective"}};
+  const Real of_flow = std::min(solver.advective_dt(time.courant), solver.upwind_dt());
+  std::vector<Limit> all{{std::min(of_flow, carried), "advective"}};
   // Values given over time may change while the flow is slow and would allow any step.
   const Real over_time = solver.conditions_dt(time.end);
   all.push_back({over_time < time.end ? over_time : Limit{}.dt, "conditions"});

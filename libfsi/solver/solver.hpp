@@ -98,6 +98,9 @@ class Solver {
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
   /// A triangle or tetrahedron away from the solids has that of its neighbourhood (flow::Courant).
   Real advective_dt(Real courant) const;
+  /// Collective. How long a step may be for explicit upwind convection; the largest number with
+  /// central convection.
+  Real upwind_dt() const { return courant_.upwind_dt(state_.phi, modes_.implicit_convection); }
   /// Collective. How long the next step may be for what the conditions and the body force give over
   /// time, in a run to `end` (`step_of`, OfPlaceAndTime).
   Real conditions_dt(Real end) const;
