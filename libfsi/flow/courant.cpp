@@ -64,11 +64,10 @@ Real Courant::rate(const FaceField<Real>& phi) const {
 
 Real Courant::upwind_dt(const FaceField<Real>& phi, bool implicit_served) const {
   constexpr Real stable = 0.25;
+  if (bound_ == central) return std::numeric_limits<Real>::max();
   Real rate = 0;
-  if (bound_ == upwind)
-    for (Index c = 0; c < mesh_.n_owned; ++c)
-      if (!(implicit_served && mesh_.simplex(c)))
-        rate = std::max(rate, courant_rate(phi, mesh_, c));
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    if (!(implicit_served && mesh_.simplex(c))) rate = std::max(rate, courant_rate(phi, mesh_, c));
   rate = global_max(rate);
   return rate > 0 ? stable / rate : std::numeric_limits<Real>::max();
 }
