@@ -30,10 +30,15 @@ def read(path):
 
 
 def columns_that_differ(rows, names):
-    for name in names:
-        values = [number(row[name]) for row in rows]
-        if None not in values and max(values) - min(values) > 1e-6 * max(map(abs, values)):
-            yield name
+    """Those whose values differ by more than round-off: by 1e-6 of the largest component of their vector."""
+    columns = {name: [number(row[name]) for row in rows] for name in names}
+    columns = {name: values for name, values in columns.items() if None not in values}
+    size = {}
+    for name, values in columns.items():
+        vector = name.rstrip("xyz")
+        size[vector] = max(size.get(vector, 0), *map(abs, values))
+    return [name for name, values in columns.items()
+            if max(values) - min(values) > 1e-6 * size[name.rstrip("xyz")]]
 
 
 def is_wide(values):
@@ -48,8 +53,7 @@ def draw(out, options=()):
     if along is None:
         print("nothing to draw: fewer than two different points are complete")
         return None
-    shown = list(columns_that_differ(rows, [n for n in names[names.index("status") + 1:]
-                                            if n not in LEFT_OUT]))
+    shown = columns_that_differ(rows, [n for n in names[names.index("status") + 1:] if n not in LEFT_OUT])
     if len(shown) > SHOWN:
         print("not drawn: " + ", ".join(shown[SHOWN:]))
     shown = shown[:SHOWN]

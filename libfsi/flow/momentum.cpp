@@ -108,36 +108,25 @@ void Momentum::raise_theta(const MomentumTerms& terms, Real theta_now, Real dt) 
   }
 }
 
-template <class Coefficient>
-void Momentum::add_diffusion(const Coefficient& coefficient) {
-  const Index dim = mesh_.dim;
-  VectorMatrix& A = system_.matrix();
-  const auto add = [&](Index c, const Vec3& a) {
-    if (c >= mesh_.n_owned) return;
-    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
-  };
-  for (Index f = 0; f < mesh_.n_faces; ++f) {
-    const Real a = coefficient(f) * weights_.g[f];
-    if (f >= mesh_.n_internal) {
-      add(mesh_.owner[f], a * implicit_[f - mesh_.n_internal]);
-      continue;
-    }
-    A.off_diagonal[f] = -a;
-    add(mesh_.owner[f], {a, a, a});
-    add(mesh_.neighbour[f], {a, a, a});
-  }
-}
-
 void Momentum::assemble(const MomentumTerms& terms, Real dt) {
   const Index dim = mesh_.dim;
-  const FaceField<Real>&mu = terms.mu, &kappa = terms.kappa;
   VectorMatrix& A = system_.matrix();
   for (Index c = 0; c < mesh_.n_owned; ++c)
     for (Index i = 0; i < dim; ++i) {
       const Real rho = terms.rho ? (*terms.rho)[c][static_cast<int>(i)] : rho_;
       A.diagonal[c * dim + i] = rho * mesh_.V[c] / dt;
     }
-  add_diffusion([&](Index f) { return theta_f_[f] * mu[f] + kappa[f]; });
+  const auto add = [&](Index c, const Vec3& a) {
+    if (c >= mesh_.n_owned) return;
+    for (Index i = 0; i < dim; ++i) A.diagonal[c * dim + i] += a[static_cast<int>(i)];
+  };
+  for (Index f = 0; f < mesh_.n_faces; ++f) {
+    const Real a = (theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f];
+    add(mesh_.owner[f], f < mesh_.n_internal ? Vec3{a, a, a} : a * implicit_[f - mesh_.n_internal]);
+    if (f >= mesh_.n_internal) continue;
+    A.off_diagonal[f] = -a;
+    add(mesh_.neighbour[f], {a, a, a});
+  }
   system_.renewed();
 }
 

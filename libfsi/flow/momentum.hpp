@@ -132,10 +132,8 @@ class Momentum {
   void add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_sources(const MomentumTerms& terms);
+  /// The matrix of rho V / dt w - sum_f a_f g (w_N - w_P), a = theta mu + kappa.
   void assemble(const MomentumTerms& terms, Real dt);
-  /// Adds to the system's matrix -sum_f a_f g (w_N - w_P), a_f = coefficient(f).
-  template <class Coefficient>
-  void add_diffusion(const Coefficient& coefficient);
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.
   Real extrapolated(Real dt) const;
 

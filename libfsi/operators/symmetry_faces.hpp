@@ -56,4 +56,13 @@ void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Functi
   }
 }
 
+/// Calls f(k, r, n) for the vertex neighbours k of owned cell c, with n = 0, and for the images of
+/// `for_images`. image(q, n) is then the value that c sees: q itself of a neighbour.
+template <class Function>
+void for_neighbours_and_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh,
+                               Function&& f) {
+  for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& r) { f(k, r, Vec3{}); });
+  for_images(c, symmetry, mesh, f);
+}
+
 }  // namespace fsi

@@ -30,16 +30,12 @@ Value alternation(const CellField<Value>& T, const Known& known, const Rise& ris
                   const SymmetryFaces& symmetry, Index c) {
   Value sum{};
   Real weights = 0;
-  const auto add = [&](const Value& T_k, const Value& rise_k, const Vec3& r) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (!known(k)) return;
     const Real w = 1 / norm2(r);
-    sum += w * (T_k - T[c] - 0.5 * (rise(c, r) + rise_k));
+    const Value rise_k = image(rise(k, image(r, n)), n);
+    sum += w * (image(T[k], n) - T[c] - 0.5 * (rise(c, r) + rise_k));
     weights += w;
-  };
-  for_vertex_neighbours(c, mesh, [&](Index k, const Vec3& r) {
-    if (known(k)) add(T[k], rise(k, r), r);
-  });
-  for_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
-    if (known(k)) add(image(T[k], n), image(rise(k, image(r, n)), n), r);
   });
   return weights > 0 ? (1 / weights) * sum : Value{};
 }

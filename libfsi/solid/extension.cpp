@@ -51,10 +51,7 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
 
 SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) const {
   TensorFit fit;
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (rings_.within(0, k)) fit.add(T[k] - T[c], r);
-  });
-  for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
     if (rings_.within(0, k)) fit.add(image(T[k], n) - T[c], r);
   });
   return fit.slope(mesh_.dim);

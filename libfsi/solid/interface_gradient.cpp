@@ -34,12 +34,8 @@ std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u, const O
                           const Same& same, const HasL& has_L, const Mesh& mesh, Index c) {
   QuadraticFit quadratic(mesh.dim, cell_size(mesh, c));
   const Vec3 u_c = u[c];
-  for_vertex_neighbours(c, mesh, [&](Index n, const Vec3& r) {
-    if (!same(n)) return;
-    quadratic.add_value(r, u[n] - u_c);
-    if (has_L(n)) quadratic.add_gradient(r, L[n]);
-  });
-  for_images(c, walls.sides.symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+  const SymmetryFaces& symmetry = walls.sides.symmetry;
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
     if (!same(k)) return;
     quadratic.add_value(r, image(u[k], n) - u_c);
     if (has_L(k)) quadratic.add_gradient(r, image(L[k], n));

@@ -8,16 +8,11 @@ namespace fsi::solid {
 Tensor MapExtension::regression(Index c, int up_to_ring) const {
   SymTensor M;
   Tensor R;
-  const auto add = [&](const Vec3& d, const Vec3& r) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (!rings_.within(up_to_ring, k)) return;
     const Real w = 1 / norm2(r);
     M += w * square(r);
-    R += w * outer(d - item_[c].d, r);
-  };
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (rings_.within(up_to_ring, k)) add(item_[k].d, r);
-  });
-  for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-    if (rings_.within(up_to_ring, k)) add(image(item_[k].d, n), r);
+    R += w * outer(image(item_[k].d, n) - item_[c].d, r);
   });
   return M == SymTensor{} ? Tensor{} : dot(R, raised_inverse(M, mesh_.dim));
 }
@@ -29,17 +24,13 @@ MapExtension::Item MapExtension::fit(Index c, int ring) const {
   Vec3 m, e;
   SymTensor M;
   Tensor R;
-  const auto add = [&](const Item& item, const Vec3& r) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+    if (!rings_.within(ring - 1, k)) return;
     const Real w = 1 / norm2(r);
-    W += w, m += w * r, e += w * item.d;
+    const Vec3 d = image(item_[k].d, n);
+    W += w, m += w * r, e += w * d;
     M += w * square(r) + identity();
-    R += w * outer(item.d, r) + item.g;
-  };
-  for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
-    if (rings_.within(ring - 1, k)) add(item_[k], r);
-  });
-  for_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-    if (rings_.within(ring - 1, k)) add({image(item_[k].d, n), image(item_[k].g, n)}, r);
+    R += w * outer(d, r) + image(item_[k].g, n);
   });
   m *= 1 / W, e *= 1 / W;
   const Tensor g = dot(R + -W * outer(e, m), raised_inverse(M - W * square(m), mesh_.dim));

@@ -166,7 +166,18 @@ def check_sections():
     check(cuts.best_normal({"x": [0, 2], "y": [0, 0.1], "z": [0, 3]}) == "y", "seen from where it moves least")
 
 
+def check_sweep():
+    """The table of a sweep, in which y and ux differ by round-off alone, ux of a vector that is zero."""
+    sys.path.insert(0, os.path.join(source, "examples", "sweep"))
+    import draw
+    rows = [{"x": "2.5", "y": f"{i}e-16", "ux": "0", "angle": str(i), "volume": f"{1 + i * 1e-15}", "limit": "dt"}
+            for i in range(3)]
+    shown = draw.columns_that_differ(rows, list(rows[0]))
+    check(shown == ["angle"], f"a sweep's picture has the columns that differ: {shown}")
+
+
 check_series()
+check_sweep()
 check_own_table()
 check_outlet()
 check_failed()
