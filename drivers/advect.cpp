@@ -8,11 +8,12 @@ RunStatus body() {
   // 1 parameters
   Options options("fsi-advect", "an interface carried by a known velocity");
   const Case setup = read_case(options, "advect");
-  const std::string name =
-      options.choice("velocity", "vortex", vof::motion_names(), "what carries the interface");
+  const std::string name = options.choice(
+      "velocity", "vortex", vof::motion_names(),
+      "what carries the interface, for a period at most: 8, 3 and 2 pi units of time");
   if (options.help()) return RunStatus::complete;
   options.check_unknown();
-  require(setup.solids.size() == 1, "option -solid_shape is missing: what is carried");
+  require(setup.solids.size() == 1, "one shape is carried: give -solid_shape");
 
   // 2 mesh and velocity
   const Mesh mesh = read_mesh(setup.mesh);
@@ -20,7 +21,7 @@ RunStatus body() {
   describe(setup, mesh, 1, 1);
 
   // 3 the interface
-  PrescribedAdvection carried(mesh, motion, setup.solids[0].solid.shape);
+  PrescribedAdvection carried(mesh, motion, shape_in(mesh.dim, setup.solids[0]));
 
   // 4 what to write
   PrescribedAdvectionOutput output(setup, options, carried);

@@ -231,6 +231,10 @@ int run(int argc, char** argv, const std::function<RunStatus()>& body) {
   } catch (const std::exception& error) {
     code = failed(rim, ErrorKind::internal, error.what());
   }
+  if (code == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    std::fprintf(stderr, "fsi: error: the standard output could not be written\n");
+    code = static_cast<int>(ErrorKind::io);
+  }
   code = end_petsc(code);
   MPI_Comm_free(&rim);
   MPI_Finalize();

@@ -25,6 +25,8 @@ void watch_signals() {
   std::signal(SIGUSR2, remember);
   std::signal(SIGTERM, remember);
   std::signal(SIGINT, remember);
+  if (std::signal(SIGHUP, remember) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the output may leave
 }
 
 Signal pending_signal() {

@@ -7,10 +7,11 @@ namespace fsi {
 enum class Signal : int {
   none = 0,
   checkpoint = 1,  ///< SIGUSR1: write a checkpoint and go on
-  end = 2,  ///< SIGUSR2, SIGTERM, SIGINT: finish the step, write a checkpoint, end as interrupted
+  end = 2,  ///< SIGUSR2, SIGTERM, SIGINT, SIGHUP: finish the step, write a checkpoint, end as
+            ///< interrupted
 };
 
-/// Installs the handlers.
+/// Installs the handlers. SIGPIPE is ignored, and so stays SIGHUP where it is.
 void watch_signals();
 /// Collective. The strongest request any rank received; it is then forgotten.
 Signal pending_signal();

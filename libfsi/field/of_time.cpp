@@ -37,14 +37,17 @@ Real step_of(const OfTime& given, Real t, Real end) {
 
 // The longest of end, 0.75 end, 0.75^2 end, ... that will do, by bisection.
 Real step_of(const OfTime& given, Real most, Real t, Real end) {
-  constexpr Real change = 0.1, least = 1e-5, shorter = 0.75;
+  constexpr Real change = 0.05, least = 1e-5, shorter = 0.75;
+  constexpr int before = 4;  // steps: the next one is longer by a quarter at most after a jump
   const auto length = [&](int k) { return std::max(std::pow(shorter, k), least) * end; };
   int does = 0, not_yet = -1;
   while (length(does) > least * end) ++does;
   while (does - not_yet > 1) {
     const int middle = (does + not_yet) / 2;
+    const Real since = std::max(t - before * length(middle), Real{0});
     const Real until = std::min(t + length(middle), std::max(end, t));
-    const bool well = width(given.range(t, until)) <= change * most;
+    const bool well = width(given.range(t, until)) <= change * most &&
+                      width(given.range(since, until)) <= (before + 1) * change * most;
     (well ? does : not_yet) = middle;
   }
   return length(does);

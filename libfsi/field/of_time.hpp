@@ -45,10 +45,12 @@ class OfTime {
   std::function<Range(Real, Real)> range_;
 };
 
-/// The longest step from t in which `given` changes by no more than a tenth of its range in [0,
-/// end]. Never less than a part in 1e5 of end, in which it may jump; end if it is constant.
+/// The longest step from t in which `given` changes by no more than a twentieth of its range in [0,
+/// end]. From four such steps before t to its end it changes by no more than a quarter. So steps
+/// grow by a quarter each after a jump, and none leaps over an extreme. Never less than a part in
+/// 1e5 of end, in which it may jump; end if it is constant.
 Real step_of(const OfTime& given, Real t, Real end);
-/// The same for a tenth of `most`, 0 or more, in place of that of its own range.
+/// The same for parts of `most`, 0 or more, in place of its own range.
 Real step_of(const OfTime& given, Real most, Real t, Real end);
 
 /// The k-th number of a sequence that fills [0, 1) evenly and has no period: the fractions of

@@ -84,7 +84,7 @@ class Reader {
   void element(const GmshType& type, std::int64_t tag, std::int32_t entity, std::int32_t physical,
                bool wide);
   Index node(std::int64_t tag, const std::string& who);
-  std::int32_t physical_of(int dim, std::int32_t entity) const;
+  std::vector<std::int32_t> groups_of(const Elements& sides, std::size_t i) const;
   /// A count or tag: 8 bytes in binary 4.1, an int in tags of 4.0.
   std::int64_t tag(bool wide) {
     return wide ? static_cast<std::int64_t>(in_.take<std::size_t>()) : in_.take<int>();
@@ -246,12 +246,6 @@ void Reader::elements_2() {
   }
 }
 
-std::int32_t Reader::physical_of(int dim, std::int32_t entity) const {
-  const auto found = physicals_.find({dim, entity});
-  // A minus sign gives the orientation of the entity within its group.
-  return found == physicals_.end() || found->second.empty() ? 0 : std::abs(found->second.front());
-}
-
 void Reader::elements_4() {
   const auto blocks = in_.count(in_.take<std::size_t>(), 8, "blocks of elements");
   in_.count(in_.take<std::size_t>(), 4, "elements");
@@ -261,8 +255,7 @@ void Reader::elements_4() {
     if (is(4.0)) std::swap(dim, entity);
     const GmshType& type = element_type(in_.take<int>());
     const auto n = in_.count(in_.take<std::size_t>(), 4, "elements");
-    const std::int32_t physical = physical_of(type.dim, entity);
-    for (std::size_t i = 0; i < n; ++i) element(type, tag(is(4.1)), entity, physical, is(4.1));
+    for (std::size_t i = 0; i < n; ++i) element(type, tag(is(4.1)), entity, 0, is(4.1));
   }
 }
 
@@ -330,6 +323,16 @@ RawMesh Reader::read() {
   return std::move(raw_);
 }
 
+/// The physical groups of a boundary element: its own in format 2.2, all of its entity in 4; 0 for
+/// none. A minus sign gives the orientation of the entity within its group.
+std::vector<std::int32_t> Reader::groups_of(const Elements& sides, std::size_t i) const {
+  const auto found = physicals_.find({raw_.dim - 1, sides.entities[i]});
+  if (found == physicals_.end() || found->second.empty()) return {sides.physicals[i]};
+  std::vector<std::int32_t> groups = found->second;
+  for (std::int32_t& group : groups) group = std::abs(group);
+  return groups;
+}
+
 void Reader::assemble() {
   raw_.dim = elements_[3].types.empty() ? 2 : 3;
   Elements& cells = elements_[raw_.dim];
@@ -338,7 +341,8 @@ void Reader::assemble() {
 
   const Elements& sides = elements_[raw_.dim - 1];
   std::map<std::int32_t, Index> name_of;  // by number of the group, so that formats agree
-  for (const std::int32_t physical : sides.physicals) name_of[physical] = -1;
+  for (std::size_t i = 0; i < sides.types.size(); ++i)
+    for (const std::int32_t physical : groups_of(sides, i)) name_of[physical] = -1;
   for (auto& [physical, index] : name_of) {
     if (physical == 0) continue;
     const auto named = names_.find({raw_.dim - 1, physical});
@@ -350,8 +354,9 @@ void Reader::assemble() {
   for (std::size_t i = 0; i < sides.types.size(); ++i) {
     RawMesh::Side side;
     std::ranges::copy(sides.corners[static_cast<Index>(i)], side.corner.begin());
-    side.tag = sides.tags[i], side.name = name_of[sides.physicals[i]];
-    raw_.sides.push_back(side);
+    side.tag = sides.tags[i];
+    for (const std::int32_t physical : groups_of(sides, i))
+      side.name = name_of[physical], raw_.sides.push_back(side);
   }
 }
 

@@ -43,8 +43,8 @@ Physics read_physics(Options& options) {
                    {.help = "dynamic viscosity of the fluid", .unit = viscosity, .positive = true});
   physics.gravity = options.vec3(
       "gravity", {},
-      {.help = "acceleration of fluid and solids; pressures are written without the part "
-               "fluid_density gravity . x that bears the fluid itself",
+      {.help = "acceleration of fluid and solids; pressures are given and written without the "
+               "part fluid_density gravity . x that bears the fluid itself",
        .unit = "length / time^2"});
   return physics;
 }
@@ -172,7 +172,7 @@ OutputSetup read_output(Options& options, const std::string& driver) {
 }
 
 /// Errors: Error{input} for so short intervals that the run would not end: its steps stop at every
-/// file.
+/// file. Warns of tables without rows.
 void check_intervals(const OutputSetup& output, Real end) {
   constexpr Real files = 1e5, rows = 1e8;
   const auto check = [&](const char* name, Real interval, Real most, const char* things) {
@@ -184,6 +184,12 @@ void check_intervals(const OutputSetup& output, Real end) {
   check("output_interval", output.field_interval, files, "files");
   check("checkpoint_interval", output.checkpoint_interval, files, "files");
   check("sample_interval", output.sample_interval, rows, "rows");
+  if (output.sample_interval > end * (1 + 1e-9) && rank() == 0)
+    std::fprintf(
+        stderr,
+        "fsi: warning: -sample_interval %g is longer than the run to t = %g: the csv files "
+        "will have no row after the start\n",
+        output.sample_interval, end);
 }
 
 /// The patches with that type of condition.

@@ -74,7 +74,9 @@ std::string differences(const std::string& before, const std::string& now) {
     std::string& list = of_undeformed_solid(name) ? undeformed : text;
     list += (list.empty() ? "-" : ", -") + name + " ";
     list += is == current.end() ? "left out" : is->second;
-    list += was == old.end() ? " (was not given)" : " (was " + was->second + ")";
+    list += name.ends_with("_stored_pressure") ? " (without effect: that of the checkpoint is kept)"
+            : was == old.end()                 ? " (was not given)"
+                                               : " (was " + was->second + ")";
   }
   require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
                                   undeformed + "; give what was given there");

@@ -280,6 +280,8 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
   for (SolidSetup& solid : solids) {
     const std::string& of = solid.options;
     const auto [path, s] = read_path(options, of);
+    require(!path.empty() || !options.given(of + "arc_length"),
+            "option -" + of + "arc_length goes with -" + of + "path");
     if (path.empty()) continue;
     require(path.size() == 2 && path[0] != path[1],
             "option -" + of + "path needs two different patches: from,to");

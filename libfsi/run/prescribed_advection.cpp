@@ -33,6 +33,10 @@ PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
   start_.assign(alpha_);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = motion_.u(mesh.C[c]);
   vof::set_flux(phi_1_, motion_, mesh);
+  Real most = 0;
+  for (Index f = 0; f < mesh.n_faces; ++f) most = std::max(most, std::abs(phi_1_[f]));
+  require(global_max(most) > 0,
+          "option -velocity: this motion is one of three dimensions; nothing moves in the mesh");
 }
 
 Real PrescribedAdvection::stable_dt(Real courant) const {

@@ -181,6 +181,9 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
                "friction in it; 0: half a cell; log_conformation alone",
        .unit = "length",
        .min = 0});
+  require(
+      solid.solid.film_thickness == 0 || solid.solid.kinematics == KinematicsKind::log_conformation,
+      "option -" + of + "film_thickness is for log_conformation alone");
   solid.solid.memory = read.flag(
       of + "memory", true,
       "log_conformation: carry a map to the undeformed solid too, and hold shape and strain to "
@@ -218,6 +221,10 @@ void check_shapes(const Options& options, const std::vector<std::string>& names)
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   std::vector<SolidSetup> solids;
   const std::vector<std::string> names = options.names("solids_", "_shape");
+  const std::vector<std::string> alone = options.names("solid_", "");
+  if (!names.empty() && !alone.empty())
+    throw Error(ErrorKind::input, "option -solid_" + alone.front() + " stands beside -solids_" +
+                                      names.front() + "_shape: give one solid or a list of solids");
   if (names.empty() || options.help()) add_solid(solids, options, "solid_", "", physics);
   for (const std::string& name : names)
     add_solid(solids, options, "solids_" + name + "_", name, physics);

@@ -139,8 +139,9 @@ void Watch::flow(const std::vector<Entry>& row, const EnergyBalance& energy, Rea
 
 void Watch::dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t) {
   constexpr Real odd = 10;
-  if (told_of_dissipation_ || !(taken * dt > energy.stored()) ||
-      !(taken > odd * std::abs(energy.power())))
+  constexpr Real little = 0.1;  // of the largest energy of the run
+  if (told_of_dissipation_ || !(taken > odd * std::abs(energy.power())) ||
+      !(taken * dt > std::max(std::abs(energy.stored()), little * energy.largest())))
     return;
   told_of_dissipation_ = true;
   say("warning",

@@ -31,6 +31,10 @@ void require_place(const Body& body, const std::string& by_default, const std::d
   require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
                                                  print("%.4g", -body.filled.clearance) +
                                                  ": move it or make it smaller" + sizes);
+  require(!body.filled.overlaps_itself,
+          which +
+              " is longer than a period of the mesh and overlaps its own image: make it smaller" +
+              sizes);
   for (const Body& other : others) {
     if (&other == &body) continue;
     Real most = 0;

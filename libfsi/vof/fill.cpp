@@ -19,6 +19,7 @@ struct Images {
   const Shape& shape;
   std::vector<Vec3> all;
   std::vector<Vec3> near;
+  bool overlap = false;  // whether a point lay in two images, not as deep in both
 
   Images(const Mesh& mesh, const Shape& of) : shape(of) {
     // A translation that one face needs is needed with the other sign on the other side.
@@ -36,6 +37,8 @@ struct Images {
     near.clear();
     for (const Vec3& t : all) {
       const Real distance = shape(x + t);
+      constexpr Real rounding = 1e-9;  // an endless shape is its own image
+      if (distance < 0 && least < 0 && std::abs(distance / least - 1) > rounding) overlap = true;
       least = std::min(least, distance);
       if (std::abs(distance) <= radius) near.push_back(t);
     }
@@ -268,7 +271,9 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
   Sum::totals(totals, sums);
   const Real error = std::abs(totals[1]) + std::sqrt(totals[2]) + totals[3];
   const auto at = [&](const Vec3& x) { return distance.select(x, 0); };
-  return {totals[0], error, clearance(mesh, distance, mirrors), cutting_planes(at, mesh, mirrors)};
+  const bool overlap = !all_of_ranks(!distance.overlap);
+  return {totals[0], error, clearance(mesh, distance, mirrors), cutting_planes(at, mesh, mirrors),
+          overlap};
 }
 
 }  // namespace fsi::vof

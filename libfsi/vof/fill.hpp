@@ -33,6 +33,7 @@ struct Filled {
   /// The planes of `mirrors` that cut the solid. The whole solid is its part in the mesh and the
   /// images of this part.
   CuttingPlanes cut_by{};
+  bool overlaps_itself = false;  ///< whether it reaches into its own image across a period
 };
 
 /// Collective. alpha = part of each cell inside the shape (negative distance), in [0, 1], exactly 0

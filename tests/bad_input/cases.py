@@ -98,6 +98,12 @@ OPTIONS = [
     option("law's limit NaN", "-solid_law gent -solid_law_limit nan", "-solid_law_limit", "nan"),
     option("option of another law", "-solid_shape sphere -solid_center 0.5,0.5,0 -solid_law gent "
            "-solid_law_c2_share 0.3", "-solid_law_c2_share", "mooney_rivlin", "gent"),
+    option("film of another kinematics", "-solid_shape sphere -solid_center 0.5,0.5,0 -solid_film_thickness 0.01 "
+           "-solid_kinematics reference_map", "-solid_film_thickness", "log_conformation"),
+    option("one solid beside a list", "-solid_shape sphere -solids_a_shape sphere", "-solid_shape",
+           "-solids_a_shape"),
+    option("motion of three dimensions", "-solid_shape sphere -velocity deformation", "-velocity",
+           "three dimensions", driver="fsi-advect"),
     option("axis and angle", "-solid_shape disk -solid_axis 1,0,0 -solid_angle 30", "-solid_axis",
            "-solid_angle"),
     option("tube wider than its ring", "-solid_shape torus -solid_major_radius 0.1",

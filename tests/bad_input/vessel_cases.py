@@ -53,6 +53,10 @@ def cases(Case):
              "two different patches"),
         case("path to a wall", yaml("solid: {shape: sphere, path: [left, bottom]}"), "-solid_path",
              "\"bottom\" is a wall", "from one opening to another"),
+        case("way along no path", yaml("solid: {shape: sphere, center: [0.5, 0.5, 0], arc_length: 1}"),
+             "-solid_arc_length", "-solid_path"),
+        case("solid longer than a period", yaml("solid: {shape: ellipsoid, center: [0.5, 0.5, 0], semi_axes: "
+             "[0.7, 0.2, 0.2]}\nmesh_periodic: [left, right]", left=None, right=None), "overlaps its own image"),
         case("path and centre", yaml("solid: {shape: sphere, path: [left, right], center: [0.5, 0.5, 0]}"),
              "-solid_path", "-solid_center", "exclude each other"),
         case("path and centre of one of several", yaml("solids: {one: {shape: sphere, path: [left, right], "

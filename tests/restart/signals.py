@@ -3,7 +3,7 @@
 
     signals.py SOURCE DRIVERS FOLDER [MPIEXEC...]
 
-SIGINT, SIGTERM and SIGUSR2 to a driver; the same to fsi-mpiexec, and SIGUSR2 to mpiexec, on two ranks.
+SIGINT, SIGTERM, SIGHUP and SIGUSR2 to a driver; the same to fsi-mpiexec, and SIGUSR2 to mpiexec, on two ranks.
 After SIGUSR1 the run goes on; the checkpoint serves to go on from.
 """
 import glob
@@ -71,7 +71,7 @@ def main():
             "-time_end", "1000", "-output_interval", "0"]
     environment = dict(os.environ, MPIEXEC=mpiexec[0])
     wrapped = [os.path.join(drivers, "fsi-mpiexec"), *mpiexec[1:], "2"]
-    asked = {"fsi-cavity": ([], (signal.SIGINT, signal.SIGTERM, signal.SIGUSR2)),
+    asked = {"fsi-cavity": ([], (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR2)),
              "mpiexec": ([*mpiexec, "2"], (signal.SIGUSR2,)),
              "fsi-mpiexec": (wrapped, (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1))}
     for name, (launcher, signals) in asked.items():
@@ -86,6 +86,16 @@ def main():
                           stdin=subprocess.DEVNULL, capture_output=True, text=True)
     check(done.returncode == 0 and summary(out)["status"] == "complete",
           f"gone on with to its end: exit code {done.returncode} {done.stderr}")
+    short = [word if word != "1000" else "0.1" for word in case]
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        said = subprocess.run([*short, "-output_dir", out], stdin=subprocess.DEVNULL, stdout=full,
+                              stderr=subprocess.PIPE, text=True, check=False)
+    check(said.returncode == 4 and "standard output" in said.stderr,
+          f"a full standard output is told: exit code {said.returncode} {said.stderr}")
+    with subprocess.Popen([*short, "-output_dir", out], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as run:
+        run.stdout.close()
+        check(run.wait(60) == 4 and summary(out)["status"] == "complete", "who reads the output may leave")
     return 1 if failures else 0
 
 

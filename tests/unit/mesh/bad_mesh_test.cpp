@@ -68,6 +68,15 @@ std::string folded_tets() {
          "5\n$EndElements\n";
 }
 
+/// Two quads in format 4.1, whose one curve of sides is of two physical groups.
+std::string two_groups() {
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"left\"\n1 2 \"right\"\n"
+         "$EndPhysicalNames\n$Entities\n0 1 1 0\n7 0 0 0 2 1 0 2 1 -2 0\n9 0 0 0 2 1 0 0 0\n"
+         "$EndEntities\n$Nodes\n1 6 1 6\n2 9 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n"
+         "1 1 0\n2 1 0\n$EndNodes\n$Elements\n2 8 1 8\n1 7 1 6\n1 1 2\n2 2 3\n3 3 6\n4 6 5\n5 5 4\n"
+         "6 4 1\n2 9 3 2\n7 1 2 5 4\n8 2 3 6 5\n$EndElements\n";
+}
+
 struct Fault {
   std::string name, text, sentence;
   std::vector<std::string> periodic{};
@@ -147,6 +156,7 @@ std::vector<Fault> faults_of_names() {
        "12 boundary faces carry no physical name, the first at (0.166667, 0, 0), (0, 0.166667, 0), "
        "(0.5, 0, 0), (0.833333, 0, 0), (1, 0.166667, 0); names are: none"},
       {"two names", with_more(good, {}, {"1 2 2 2 1 5"}), "carries two names"},
+      {"two groups of a curve", two_groups(), "boundary element 1 carries two names: left, right"},
       {"loose side", with_more(good, {}, {"1 2 1 1 1 6"}),
        "boundary element 22 of \"left\" at (0, 0, 0) is not a face of any cell"},
       {"misspelt",

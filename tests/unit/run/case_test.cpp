@@ -71,6 +71,9 @@ TEST(Differences, AnotherShapeIsRefused) {
   EXPECT_EQ(differences("solid_radius 1\ntime 2\n", "solid_radius 1\ntime 2\n"), "");
   EXPECT_NE(differences("solid_density 1\n", "solid_density 2\n").find("-solid_density 2 (was 1)"),
             std::string::npos);
+  EXPECT_NE(differences("patches_a_stored_pressure 1\n", "patches_a_stored_pressure 2\n")
+                .find("stored_pressure 2 (without effect: that of the checkpoint is kept)"),
+            std::string::npos);
   EXPECT_THROW(differences("solids_a_center 1,0,0\n", "solids_a_center 2,0,0\n"), Error);
 }
 
