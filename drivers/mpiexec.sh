@@ -12,7 +12,7 @@ set -m # a process group of its own: a Ctrl-C of the terminal does not reach mpi
 "${MPIEXEC:-mpiexec}" "$@" </dev/null &
 job=$!
 set +m
-trap 'kill -USR2 "$job" 2>/dev/null' INT TERM USR2
+trap 'kill -USR2 "$job" 2>/dev/null' INT TERM HUP USR2
 trap 'kill -USR1 "$job" 2>/dev/null' USR1
 # A signal interrupts the wait; the code of the job is what counts.
 while kill -0 "$job" 2>/dev/null; do wait "$job"; done

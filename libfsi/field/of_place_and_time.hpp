@@ -22,9 +22,9 @@ class OfPlaceAndTime {
   /// points: of this rank, where the function is used. They must outlive it.
   OfPlaceAndTime(Function given, std::span<const Vec3> points)
       : given_(std::move(given)), points_(points) {}
-  /// Collective. The longest step from t in which none of these changes by more than a tenth of the
-  /// largest range in [0, end]. Never less than a part in 1e5 of end; end if the function is
-  /// constant in time. A change that lasts for less than a part in 64 of the run may be missed.
+  /// Collective. The shortest `fsi::step_of` of these, by the largest range in [0, end]; end if the
+  /// function is constant in time. A change that lasts for less than a part in 64 of the run may be
+  /// missed.
   Real step_of(Real t, Real end) const;
 
  private:

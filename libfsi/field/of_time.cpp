@@ -35,19 +35,23 @@ Real step_of(const OfTime& given, Real t, Real end) {
   return step_of(given, most, t, end);
 }
 
-// The longest of end, 0.75 end, 0.75^2 end, ... that will do, by bisection.
+// Of end, 0.75 end, 0.75^2 end, ... one that will do while the one before it does not.
 Real step_of(const OfTime& given, Real most, Real t, Real end) {
-  constexpr Real change = 0.05, least = 1e-5, shorter = 0.75;
-  constexpr int before = 4;  // steps: the next one is longer by a quarter at most after a jump
+  constexpr Real change = 0.04, least = 1e-5, shorter = 0.75;
+  constexpr Real growth = 1.25;
+  constexpr int before = 8;  // steps looked back on
   const auto length = [&](int k) { return std::max(std::pow(shorter, k), least) * end; };
   int does = 0, not_yet = -1;
   while (length(does) > least * end) ++does;
   while (does - not_yet > 1) {
     const int middle = (does + not_yet) / 2;
-    const Real since = std::max(t - before * length(middle), Real{0});
-    const Real until = std::min(t + length(middle), std::max(end, t));
-    const bool well = width(given.range(t, until)) <= change * most &&
-                      width(given.range(since, until)) <= (before + 1) * change * most;
+    Real begin = t, dt = length(middle);
+    bool well = width(given.range(t, std::min(t + dt, std::max(end, t)))) <= change * most;
+    for (int i = 0; i < before && well; ++i) {
+      const Real until = begin;
+      dt /= growth, begin = std::max(begin - dt, Real{0});
+      well = width(given.range(begin, until)) <= change * most;
+    }
     (well ? does : not_yet) = middle;
   }
   return length(does);

@@ -45,10 +45,10 @@ class OfTime {
   std::function<Range(Real, Real)> range_;
 };
 
-/// The longest step from t in which `given` changes by no more than a twentieth of its range in [0,
-/// end]. From four such steps before t to its end it changes by no more than a quarter. So steps
-/// grow by a quarter each after a jump, and none leaps over an extreme. Never less than a part in
-/// 1e5 of end, in which it may jump; end if it is constant.
+/// A step from t in which `given` changes by no more than 1/25 of its range in [0, end]. The same
+/// holds for the eight intervals before t that lead up to it and grow by a quarter each. So steps
+/// grow slowly after a steep part: of the lengths end 0.75^k the next is equal or longer by a
+/// third. Never less than a part in 1e5 of end, in which it may jump; end if it is constant.
 Real step_of(const OfTime& given, Real t, Real end);
 /// The same for parts of `most`, 0 or more, in place of its own range.
 Real step_of(const OfTime& given, Real most, Real t, Real end);

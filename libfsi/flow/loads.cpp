@@ -73,16 +73,17 @@ void Loads::solve() {
   }
 }
 
-// p_held + rho / dt pi_j = a_j + b_j (Q_j* + sum_k Y_jk pi_k - dt trend_j / 2)
+// p_held + rho / dt pi_j = a_j + b_j (Q_j* + sum_k Y_jk pi_k - trend_over trend_j / 2)
 void Loads::answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real t,
-                   Real dt) {
+                   Real dt, Real trend_over) {
   const std::size_t n = responses_.size();
   if (n == 0) return;
   set_flow_rates(phi);
   for (std::size_t j = 0; j < n; ++j) {
     const Openings::One& opening = *responses_[j].opening;
     lines_[j] = line(opening, t, dt);
-    pi_[j] = lines_[j].a + lines_[j].b * (flow_[j] - dt * opening.trend / 2) - opening.pressure;
+    pi_[j] =
+        lines_[j].a + lines_[j].b * (flow_[j] - trend_over * opening.trend / 2) - opening.pressure;
     for (std::size_t k = 0; k < n; ++k)
       A_[j * n + k] = (j == k ? rho_ / dt : 0) - lines_[j].b * S_[j * n + k];
   }
@@ -99,7 +100,7 @@ void Loads::answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& gr
     Openings::One& opening = *responses_[j].opening;
     Real Q = flow_[j];
     for (std::size_t k = 0; k < n; ++k) Q += S_[j * n + k] * pi_[k];
-    const Real Q_mid = Q - dt * opening.trend / 2;
+    const Real Q_mid = Q - trend_over * opening.trend / 2;
     opening.pressure += rho_ / dt * pi_[j];
     const Load& load = opening.load;
     if (load.capacitance > 0) {

@@ -15,7 +15,8 @@ namespace fsi::flow {
 /// with pi_k = dt / rho times the change of the pressure at opening k that the projection does not
 /// contain. The loads give
 ///   p_j = p_far + R_p Q_mid + p_c,   C dp_c/dt = Q_mid - p_c / R_d  by the midpoint rule,
-///   Q_mid = Q^(n+1) - (dt / 2) (Q^n - Q^(n-1)) / dt_old.
+///   Q_mid = Q^(n+1) - (dt / 2) (Q^n - Q^(n-1)) / dt_old,
+/// with 2 dt_old in place of dt if the step is more than twice as long as the last one (`reach`).
 /// This is one small linear system in each step. It is implicit and of second order, and damped if
 /// a step is long for the load (doc/theory/openings.md).
 class Loads {
@@ -27,7 +28,9 @@ class Loads {
   void renew(Projection& projection, Real absolute);
   /// Collective. After a projection over dt: adds the loads' part to phi (every face), q and grad_q
   /// (owned and halo). Updates the pressures, stored pressures and trends of the loaded openings.
-  void answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real t, Real dt);
+  /// trend_over: the time over which the trend of the flow rates is taken to hold.
+  void answer(FaceField<Real>& phi, CellField<Real>& q, CellField<Vec3>& grad_q, Real t, Real dt,
+              Real trend_over);
 
  private:
   /// The response to a unit of q at an opening.

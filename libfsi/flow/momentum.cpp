@@ -19,11 +19,16 @@ Real least(const Vec3& v, Index dim) {
 
 }  // namespace
 
+Real reach(Real dt, Real dt_old) {
+  constexpr Real most = 2;
+  return std::min(dt, most * dt_old);
+}
+
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight) {
   if (dt_old <= 0) return {1, 0, 0};
   // int over [0, dt] of the line through 0 and -a, and of what the parabola through -b adds to it,
   // q'' t (t + a) / 2, both divided by dt
-  const Real a = dt_old, b = dt_old + dt_before, slope = dt / (2 * a);
+  const Real a = dt_old, b = dt_old + dt_before, slope = reach(dt, a) / (2 * a);
   if (dt_before <= 0 || dt > 2 * dt_old || dt_old > 2 * dt_before) return {1 + slope, -slope, 0};
   const Real mean = ab3_weight * (dt * dt / 3 + a * dt / 2);
   return {1 + slope + mean / (a * b), -slope - mean / (a * (b - a)), mean / (b * (b - a))};
@@ -201,8 +206,8 @@ void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms,
   viscous_compact(rhs_, terms.mu, u, terms.u_b, boundary_, weights_, mesh_);
   if (!old_) return;
   if (steps_taken >= damped_steps && (whole_past_ || theta_max_ < 1 || theta_at(dt) == 0.5))
-    viscous_past(rhs_, terms.mu, theta_f_, dt / dt_old, u, terms.u_b, old_->u, old_->u_b, boundary_,
-                 weights_, mesh_);
+    viscous_past(rhs_, terms.mu, theta_f_, reach(dt, dt_old) / dt_old, u, terms.u_b, old_->u,
+                 old_->u_b, boundary_, weights_, mesh_);
   old_->u.assign(u);
 }
 

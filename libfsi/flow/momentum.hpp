@@ -18,12 +18,16 @@
 
 namespace fsi::flow {
 
+/// The time after a step of dt_old over which its change is extrapolated in the next, of dt: no
+/// more than twice dt_old. After a jump the step before may be a thousandth of the next.
+Real reach(Real dt, Real dt_old);
+
 /// Weights of what is known at t^n, at dt_old before and at dt_before before that, for its mean
 /// over the dt after t^n [Hairer93] (III.5). They are those of the line through the first two and
 /// of the part `ab3_weight` of what the parabola through all three adds to it. With a part of 1
 /// they are exact for quadratic functions of t, with 0 for linear ones. By the line alone where
 /// dt_before is 0 or a step more than twice the one before it, so far beyond which the parabola
-/// would exaggerate; by the first where dt_old is 0.
+/// would exaggerate. The line rises over `reach` of dt alone. By the first where dt_old is 0.
 std::array<Real, 3> adams_bashforth(Real dt, Real dt_old, Real dt_before, Real ab3_weight);
 
 /// What the predictor needs besides u.

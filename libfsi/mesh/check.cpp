@@ -120,22 +120,22 @@ class NamedSides {
       sides_.push_back({key, &side, false});
     }
     std::ranges::stable_sort(sides_, {}, &Entry::key);
-    for (std::size_t i = 1; i < sides_.size(); ++i) {
-      const Entry &a = sides_[i - 1], &b = sides_[i];
-      if (a.key != b.key || a.side->name == b.side->name) continue;
-      refuse(raw.file + ": boundary element " + std::to_string(b.side->tag) +
-             " carries two names: " + raw.names[a.side->name] + ", " + raw.names[b.side->name]);
-    }
   }
-  /// The number of the face's name, or -1.
-  Index name_of(const Key& key) {
+  /// The number of the face's name, or -1. A face of the boundary has one name.
+  Index name_of(const Key& key, bool boundary) {
     for (const Index p : key) {
       if (p >= 0 && touched_[p] == 0) return -1;
     }
     auto found = std::ranges::lower_bound(sides_, key, {}, &Entry::key);
     if (found == sides_.end() || found->key != key) return -1;
     const Index name = found->side->name;
-    for (; found != sides_.end() && found->key == key; ++found) found->used = true;
+    for (; found != sides_.end() && found->key == key; ++found) {
+      found->used = true;
+      if (!boundary || found->side->name == name) continue;
+      refuse(raw_.file + ": boundary element " + std::to_string(found->side->tag) +
+             " carries two names: " + raw_.names[name] + ", " + raw_.names[found->side->name] +
+             "; take it out of one of these physical groups");
+    }
     return name;
   }
   void check_used() const {
@@ -180,7 +180,7 @@ void name_faces(const RawMesh& raw, const std::vector<std::string>& periodic,
   std::string places;
   each_half(list, [&](Index half) {
     const Half h(half);
-    const Index name = sides.name_of(point_key(list, h));
+    const Index name = sides.name_of(point_key(list, h), mate[half] < 0);
     if (mate[half] >= 0) {
       // The two sides of a periodic seam have corners of their own.
       const bool seam = point_key(list, h) != point_key(list, Half(mate[half]));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -323,13 +324,15 @@ RawMesh Reader::read() {
   return std::move(raw_);
 }
 
-/// The physical groups of a boundary element: its own in format 2.2, all of its entity in 4; 0 for
-/// none. A minus sign gives the orientation of the entity within its group.
+/// The physical groups of a boundary element: its own in format 2.2, those of its entity in 4, but
+/// only the named ones if there are any. A minus sign tells the orientation in the group. 0: none.
 std::vector<std::int32_t> Reader::groups_of(const Elements& sides, std::size_t i) const {
   const auto found = physicals_.find({raw_.dim - 1, sides.entities[i]});
   if (found == physicals_.end() || found->second.empty()) return {sides.physicals[i]};
   std::vector<std::int32_t> groups = found->second;
   for (std::int32_t& group : groups) group = std::abs(group);
+  const auto named = [&](std::int32_t group) { return names_.contains({raw_.dim - 1, group}); };
+  if (std::ranges::any_of(groups, named)) std::erase_if(groups, std::not_fn(named));
   return groups;
 }
 

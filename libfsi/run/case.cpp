@@ -172,7 +172,7 @@ OutputSetup read_output(Options& options, const std::string& driver) {
 }
 
 /// Errors: Error{input} for so short intervals that the run would not end: its steps stop at every
-/// file. Warns of tables without rows.
+/// file.
 void check_intervals(const OutputSetup& output, Real end) {
   constexpr Real files = 1e5, rows = 1e8;
   const auto check = [&](const char* name, Real interval, Real most, const char* things) {
@@ -184,12 +184,6 @@ void check_intervals(const OutputSetup& output, Real end) {
   check("output_interval", output.field_interval, files, "files");
   check("checkpoint_interval", output.checkpoint_interval, files, "files");
   check("sample_interval", output.sample_interval, rows, "rows");
-  if (output.sample_interval > end * (1 + 1e-9) && rank() == 0)
-    std::fprintf(
-        stderr,
-        "fsi: warning: -sample_interval %g is longer than the run to t = %g: the csv files "
-        "will have no row after the start\n",
-        output.sample_interval, end);
 }
 
 /// The patches with that type of condition.
@@ -270,6 +264,14 @@ const char* text_of_velocity(const Case& setup) {
                            : "rho U L / mu, U = mean_velocity of flow.csv";
 }
 
+void warn_of_empty_tables(Real interval, Real end) {
+  if (interval <= end * (1 + 1e-9)) return;
+  std::fprintf(stderr,
+               "fsi: warning: -sample_interval %g is longer than the run to t = %g: the csv files "
+               "will have no row after the start\n",
+               interval, end);
+}
+
 }  // namespace
 
 void tell_of_inertia(const Case& setup, Real length, Real velocity) {
@@ -297,6 +299,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
   std::printf("%s\n", summary(setup.mesh.file, mesh, figures).c_str());
   const std::string past = warning(setup.mesh.file, findings(figures));
   if (!past.empty()) std::fprintf(stderr, "fsi: warning: %s\n", past.c_str());
+  warn_of_empty_tables(setup.output.sample_interval, setup.time.end);
   const Physics& p = setup.physics;
   std::printf("fluid: %s\n", setup.fluid.c_str());
   if (setup.flow.body_force)

@@ -262,12 +262,13 @@ namespace {
 
 struct Path {
   std::vector<std::string> patches;
-  Real arc_length;
+  Real arc_length = 0;
 };
 
 Path read_path(Options& options, const std::string& of) {
   const auto patches = options.list(
       of + "path", "two patches whose centre line the solid stands on, in place of its center");
+  if (patches.empty() && !options.help() && !options.given(of + "arc_length")) return {};
   const Real s = options.real(
       of + "arc_length", 1, {.help = "way along the path, from its first patch", .unit = "length"});
   return {patches, s};

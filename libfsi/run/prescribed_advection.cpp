@@ -35,7 +35,8 @@ PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
   vof::set_flux(phi_1_, motion_, mesh);
   Real most = 0;
   for (Index f = 0; f < mesh.n_faces; ++f) most = std::max(most, std::abs(phi_1_[f]));
-  require(global_max(most) > 0,
+  constexpr Real rounding = 1e-12;
+  require(global_max(most) > rounding,
           "option -velocity: this motion is one of three dimensions; nothing moves in the mesh");
 }
 

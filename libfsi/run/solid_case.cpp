@@ -222,7 +222,7 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   std::vector<SolidSetup> solids;
   const std::vector<std::string> names = options.names("solids_", "_shape");
   const std::vector<std::string> alone = options.names("solid_", "");
-  if (!names.empty() && !alone.empty())
+  if (!names.empty() && !alone.empty() && !options.help())
     throw Error(ErrorKind::input, "option -solid_" + alone.front() + " stands beside -solids_" +
                                       names.front() + "_shape: give one solid or a list of solids");
   if (names.empty() || options.help()) add_solid(solids, options, "solid_", "", physics);

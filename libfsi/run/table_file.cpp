@@ -143,13 +143,15 @@ OfTime series(const std::string& file, Real period, const ColumnNames& value,
   };
   // Between two times the extremes are at rows or at the ends.
   const auto range = [rows, period, at](Real a, Real b) {
+    const auto after = [&](Real t) {
+      return std::ranges::upper_bound(rows, t, {}, [](const auto& row) { return row[0]; });
+    };
     OfTime::Range found{std::min(at(a), at(b)), std::max(at(a), at(b))};
     const Real first = period > 0 ? std::floor((a - rows[0][0]) / period) * period : 0;
     const Real last = period > 0 ? std::min(b - rows[0][0], first + 2 * period) : first;
     for (Real turn = first; turn <= last; turn += period > 0 ? period : 1)
-      for (const std::vector<Real>& row : rows)
-        if (row[0] + turn > a && row[0] + turn < b)
-          found = {std::min(found[0], row[1]), std::max(found[1], row[1])};
+      for (auto row = after(a - turn); row != rows.end() && (*row)[0] + turn < b; ++row)
+        found = {std::min(found[0], (*row)[1]), std::max(found[1], (*row)[1])};
     return found;
   };
   return {at, range};

@@ -139,7 +139,7 @@ void Watch::flow(const std::vector<Entry>& row, const EnergyBalance& energy, Rea
 
 void Watch::dissipation(Real taken, const EnergyBalance& energy, Real dt, Real t) {
   constexpr Real odd = 10;
-  constexpr Real little = 0.1;  // of the largest energy of the run
+  constexpr Real little = 1e-3;  // of the largest energy of the run: where a flow turns round
   if (told_of_dissipation_ || !(taken > odd * std::abs(energy.power())) ||
       !(taken * dt > std::max(std::abs(energy.stored()), little * energy.largest())))
     return;

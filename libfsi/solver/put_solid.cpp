@@ -33,7 +33,8 @@ void require_place(const Body& body, const std::string& by_default, const std::d
                                                  ": move it or make it smaller" + sizes);
   require(!body.filled.overlaps_itself,
           which +
-              " is longer than a period of the mesh and overlaps its own image: make it smaller" +
+              " is longer than a period of the mesh and overlaps its own image: make it smaller, "
+              "or of several periods for one without ends" +
               sizes);
   for (const Body& other : others) {
     if (&other == &body) continue;

@@ -283,7 +283,7 @@ void Solver::project(State& state, Real dt) {
   openings_.advance(q_b_, state.t + dt / 2, dt / physics_.rho);
   const SolveResult solve =
       projection_.project(state.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
-  loads_.answer(state.phi, q_, grad_q_, state.t + dt / 2, dt);
+  loads_.answer(state.phi, q_, grad_q_, state.t + dt / 2, dt, flow::reach(dt, momentum_.dt_before));
   if (modes_.implicit_convection) courant_.share(grad_q_, *stiff_, dt / physics_.rho, weights_);
   for (Index c = 0; c < mesh_.n_cells; ++c) {
     state.u[c] -= grad_q_[c];

@@ -20,6 +20,7 @@ struct Images {
   std::vector<Vec3> all;
   std::vector<Vec3> near;
   bool overlap = false;  // whether a point lay in two images, not as deep in both
+  Real rounding = 0;     // up to which it is as deep: an endless shape is its own image
 
   Images(const Mesh& mesh, const Shape& of) : shape(of) {
     // A translation that one face needs is needed with the other sign on the other side.
@@ -29,6 +30,7 @@ struct Images {
       }
     }
     near.reserve(all.size());
+    for (const Vec3& t : all) rounding = std::max(rounding, 1e-9 * norm(t));
   }
 
   /// Distance at x. Keeps the images whose surface comes within `radius` of it in `near`.
@@ -37,8 +39,7 @@ struct Images {
     near.clear();
     for (const Vec3& t : all) {
       const Real distance = shape(x + t);
-      constexpr Real rounding = 1e-9;  // an endless shape is its own image
-      if (distance < 0 && least < 0 && std::abs(distance / least - 1) > rounding) overlap = true;
+      if (distance < 0 && least < 0 && std::abs(distance - least) > rounding) overlap = true;
       least = std::min(least, distance);
       if (std::abs(distance) <= radius) near.push_back(t);
     }

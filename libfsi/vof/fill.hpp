@@ -33,7 +33,9 @@ struct Filled {
   /// The planes of `mirrors` that cut the solid. The whole solid is its part in the mesh and the
   /// images of this part.
   CuttingPlanes cut_by{};
-  bool overlaps_itself = false;  ///< whether it reaches into its own image across a period
+  /// Whether the centre of a cell lies in the solid and in its image across a period, in one deeper
+  /// than in the other. An endless shape is its own image.
+  bool overlaps_itself = false;
 };
 
 /// Collective. alpha = part of each cell inside the shape (negative distance), in [0, 1], exactly 0

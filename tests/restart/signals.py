@@ -61,6 +61,7 @@ def interrupt(launcher, case, out, number, environment):
 
 def main():
     source, drivers, folder, *mpiexec = sys.argv[1:]
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # under nohup it is ignored, and the drivers keep that
     out, mesh = os.path.join(folder, "signals"), os.path.join(folder, "signals.msh")
     os.makedirs(folder, exist_ok=True)
     subprocess.run(["gmsh", "-2", os.path.join(source, "meshes", "cavity.geo"), "-setnumber", "n",
@@ -73,7 +74,7 @@ def main():
     wrapped = [os.path.join(drivers, "fsi-mpiexec"), *mpiexec[1:], "2"]
     asked = {"fsi-cavity": ([], (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR2)),
              "mpiexec": ([*mpiexec, "2"], (signal.SIGUSR2,)),
-             "fsi-mpiexec": (wrapped, (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1))}
+             "fsi-mpiexec": (wrapped, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1))}
     for name, (launcher, signals) in asked.items():
         for number in signals:
             code = interrupt(launcher, case, out, number, environment)
@@ -95,7 +96,8 @@ def main():
     with subprocess.Popen([*short, "-output_dir", out], stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as run:
         run.stdout.close()
-        check(run.wait(60) == 4 and summary(out)["status"] == "complete", "who reads the output may leave")
+        code = run.wait(60)
+        check(code == 0 and summary(out)["status"] == "complete", f"who reads the output may leave: exit code {code}")
     return 1 if failures else 0
 
 

@@ -59,6 +59,9 @@ def check_opening_lines(drivers, folder):
           "G* = G / (rho U^2) = 0.5" in said.stdout, "with the peak of the flow and what it makes of G")
     limits = re.search(r"^limits on dt:.*$", said.stdout, re.M).group(0)
     check(limits.count("advective") == 1, "each limit is told once: " + limits)
+    again = run([vessel, os.path.join("out", "run.yaml"), "-output_dir", "again"], folder)
+    check(again.returncode == 0 and column(os.path.join(folder, "again", "solid.csv"), "x") ==
+          column(os.path.join(folder, "out", "solid.csv"), "x"), "run.yaml repeats it: " + again.stderr)
     for options in (["-solid_path", "left,right"], ["-solid_arc_length", "0.2"]):
         alone = run([vessel, "case.yaml", "-output_dir", "out", "-time_end", "0.05", "-solid_shape",
                      "none", *options], folder)

@@ -26,8 +26,8 @@ TEST(OfPlaceAndTime, AConstantLimitsNoStep) {
   EXPECT_EQ(given.step_of(0, 7), 7);
 }
 
-// A sine takes a twentieth of its range, 2, in 0.1 / (2 pi / T) where it is steepest.
-TEST(OfPlaceAndTime, AStepSeesATwentiethOfTheRange) {
+// A sine takes 1/25 of its range, 2, in 0.08 / (2 pi / T) where it is steepest.
+TEST(OfPlaceAndTime, AStepSeesASmallPartOfTheRange) {
   const std::vector<Vec3> all = points();
   constexpr Real T = 0.05;
   const OfPlaceAndTime given(
@@ -36,11 +36,11 @@ TEST(OfPlaceAndTime, AStepSeesATwentiethOfTheRange) {
         return Vec3{5, here ? std::sin(2 * std::numbers::pi / T * t) : 0, 0};
       },
       all);
-  const Real steepest = 0.1 * T / (2 * std::numbers::pi);
+  const Real steepest = 0.08 * T / (2 * std::numbers::pi);
   for (const Real t : {0.0, 0.013, 0.31}) {
     const Real dt = given.step_of(t, 1);
     EXPECT_GE(dt, 0.75 * steepest) << t;
-    EXPECT_LE(dt, T / 18) << t;
+    EXPECT_LE(dt, T / 15) << t;
   }
   EXPECT_LE(given.step_of(0, 1), steepest * 1.01) << "at the zero it is steepest";
 }
@@ -52,13 +52,13 @@ TEST(OfPlaceAndTime, AComponentThatHardlyChangesLimitsNothing) {
         return Vec3{t, 1e-3 * std::sin(1000 * t), 0};
       },
       all);
-  EXPECT_NEAR(given.step_of(0, 1), 0.05, 0.013);
+  EXPECT_NEAR(given.step_of(0, 1), 0.04, 0.011);
 }
 
-// A saw falls from 1 to 0 at t = 0.5. The steps after it grow by a quarter each, rounded up to the
-// next of the lengths that are tried.
-TEST(OfPlaceAndTime, StepsGrowSlowlyAfterAJump) {
-  const OfTime saw([](Real t) { return t < 0.5 ? t : t - 0.5; });
+// At t = 0.5 a ramp of 1 falls to 0, or to 0.9 of its value. The steps after it are equal or longer
+// by a third.
+void follow_jump(Real part) {
+  const OfTime saw([&](Real t) { return t < 0.5 ? t : t - 0.5 * part; });
   Real t = 0, before = 0;
   bool jumped = false;
   int steps = 0;
@@ -74,7 +74,11 @@ TEST(OfPlaceAndTime, StepsGrowSlowlyAfterAJump) {
     t += dt, before = dt, ++steps;
   }
   EXPECT_TRUE(jumped);
-  EXPECT_LE(steps, 120);
+  EXPECT_LE(steps, 140);
+}
+
+TEST(OfPlaceAndTime, StepsGrowSlowlyAfterAJump) {
+  for (const Real part : {1.0, 0.5, 0.2}) follow_jump(part);
 }
 
 // A step over an extreme of a sine would not see it by the values at its ends.
@@ -84,7 +88,7 @@ TEST(OfPlaceAndTime, NoStepLeapsOverAnExtreme) {
   int steps = 0;
   for (Real t = 0.2; t < 0.4; ++steps) {
     const Real dt = step_of(sine, t, 1);
-    EXPECT_LE(dt, 0.05 * T * 1.01) << t;
+    EXPECT_LE(dt, T / 15) << t;
     t += dt;
   }
   EXPECT_LE(steps, 64 * 4);

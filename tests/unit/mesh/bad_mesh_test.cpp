@@ -68,9 +68,9 @@ std::string folded_tets() {
          "5\n$EndElements\n";
 }
 
-/// Two quads in format 4.1, whose one curve of sides is of two physical groups.
-std::string two_groups() {
-  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"left\"\n1 2 \"right\"\n"
+/// Two quads in format 4.1, whose one curve of sides is of two physical groups; `names` of them.
+std::string two_groups(const std::string& names = "2\n1 1 \"left\"\n1 2 \"right\"\n") {
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + names +
          "$EndPhysicalNames\n$Entities\n0 1 1 0\n7 0 0 0 2 1 0 2 1 -2 0\n9 0 0 0 2 1 0 0 0\n"
          "$EndEntities\n$Nodes\n1 6 1 6\n2 9 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n"
          "1 1 0\n2 1 0\n$EndNodes\n$Elements\n2 8 1 8\n1 7 1 6\n1 1 2\n2 2 3\n3 3 6\n4 6 5\n5 5 4\n"
@@ -301,6 +301,11 @@ TEST(GoodMesh, HashTellsMeshesApart) {
   EXPECT_NE(first, hash(with_node(quads(), "6", "0.3 0.3 0"), {}));
   EXPECT_NE(first, hash(with_element(quads(), "1", "1 2 2 2 1 5"), {}));
   EXPECT_NE(first, hash(quads(), {"left", "right"}));
+}
+
+// A second group without a name, as of all curves, is no name.
+TEST(GoodMesh, AGroupWithoutANameIsLeftOutBesideOneWithAName) {
+  EXPECT_EQ(sentence_of(two_groups("1\n1 1 \"left\"\n"), {}), "no error");
 }
 
 }  // namespace
