@@ -181,9 +181,9 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
                "friction in it; 0: half a cell; log_conformation alone",
        .unit = "length",
        .min = 0});
-  require(
-      solid.solid.film_thickness == 0 || solid.solid.kinematics == KinematicsKind::log_conformation,
-      "option -" + of + "film_thickness is for log_conformation alone");
+  require(none || options.help() || solid.solid.film_thickness == 0 ||
+              solid.solid.kinematics == KinematicsKind::log_conformation,
+          "option -" + of + "film_thickness is for log_conformation alone");
   solid.solid.memory = read.flag(
       of + "memory", true,
       "log_conformation: carry a map to the undeformed solid too, and hold shape and strain to "
