@@ -37,7 +37,10 @@ Real step_of(const OfTime& given, Real t, Real end) {
 
 // Of end, 0.75 end, 0.75^2 end, ... one that will do while the one before it does not.
 Real step_of(const OfTime& given, Real most, Real t, Real end) {
-  constexpr Real change = 0.04, least = 1e-5, shorter = 0.75;
+  constexpr Real change = 0.05, least = 1e-5, shorter = 0.75;
+  // Half of it before t: a jump of which a short step took the first part is not followed by a long
+  // step that takes the rest.
+  constexpr Real changed = change / 2;
   constexpr Real growth = 1.25;
   constexpr int before = 8;  // steps looked back on
   const auto length = [&](int k) { return std::max(std::pow(shorter, k), least) * end; };
@@ -50,7 +53,7 @@ Real step_of(const OfTime& given, Real most, Real t, Real end) {
     for (int i = 0; i < before && well; ++i) {
       const Real until = begin;
       dt /= growth, begin = std::max(begin - dt, Real{0});
-      well = width(given.range(begin, until)) <= change * most;
+      well = width(given.range(begin, until)) <= changed * most;
     }
     (well ? does : not_yet) = middle;
   }

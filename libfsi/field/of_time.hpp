@@ -45,10 +45,11 @@ class OfTime {
   std::function<Range(Real, Real)> range_;
 };
 
-/// A step from t in which `given` changes by no more than 1/25 of its range in [0, end]. The same
-/// holds for the eight intervals before t that lead up to it and grow by a quarter each. So steps
-/// grow slowly after a steep part: of the lengths end 0.75^k the next is equal or longer by a
-/// third. Never less than a part in 1e5 of end, in which it may jump; end if it is constant.
+/// A step from t in which `given` changes by no more than 1/20 of its range in [0, end]. In each of
+/// the eight intervals before t that lead up to it and grow by a quarter each it changes by half of
+/// that at most. So steps grow slowly after a steep part: of the lengths end 0.75^k the next is
+/// equal or longer by a third. Never less than a part in 1e5 of end, in which it may jump; end if
+/// it is constant.
 Real step_of(const OfTime& given, Real t, Real end);
 /// The same for parts of `most`, 0 or more, in place of its own range.
 Real step_of(const OfTime& given, Real most, Real t, Real end);

@@ -26,7 +26,8 @@ TEST(OfPlaceAndTime, AConstantLimitsNoStep) {
   EXPECT_EQ(given.step_of(0, 7), 7);
 }
 
-// A sine takes 1/25 of its range, 2, in 0.08 / (2 pi / T) where it is steepest.
+// A sine takes 1/20 of its range, 2, in 0.1 / (2 pi / T) where it is steepest. With a past it takes
+// 1/40 in 0.8 of the step before, and the lengths tried are three quarters of each other.
 TEST(OfPlaceAndTime, AStepSeesASmallPartOfTheRange) {
   const std::vector<Vec3> all = points();
   constexpr Real T = 0.05;
@@ -36,10 +37,10 @@ TEST(OfPlaceAndTime, AStepSeesASmallPartOfTheRange) {
         return Vec3{5, here ? std::sin(2 * std::numbers::pi / T * t) : 0, 0};
       },
       all);
-  const Real steepest = 0.08 * T / (2 * std::numbers::pi);
+  const Real steepest = 0.1 * T / (2 * std::numbers::pi);
   for (const Real t : {0.0, 0.013, 0.31}) {
     const Real dt = given.step_of(t, 1);
-    EXPECT_GE(dt, 0.75 * steepest) << t;
+    EXPECT_GE(dt, 0.75 * 0.625 * steepest) << t;
     EXPECT_LE(dt, T / 15) << t;
   }
   EXPECT_LE(given.step_of(0, 1), steepest * 1.01) << "at the zero it is steepest";
@@ -52,11 +53,11 @@ TEST(OfPlaceAndTime, AComponentThatHardlyChangesLimitsNothing) {
         return Vec3{t, 1e-3 * std::sin(1000 * t), 0};
       },
       all);
-  EXPECT_NEAR(given.step_of(0, 1), 0.04, 0.011);
+  EXPECT_NEAR(given.step_of(0, 1), 0.05, 0.013);
 }
 
-// At t = 0.5 a ramp of 1 falls to 0, or to 0.9 of its value. The steps after it are equal or longer
-// by a third.
+// At t = 0.5 a ramp falls by a part of its value. The steps after it are equal or longer by a
+// third.
 void follow_jump(Real part) {
   const OfTime saw([&](Real t) { return t < 0.5 ? t : t - 0.5 * part; });
   Real t = 0, before = 0;
@@ -78,7 +79,7 @@ void follow_jump(Real part) {
 }
 
 TEST(OfPlaceAndTime, StepsGrowSlowlyAfterAJump) {
-  for (const Real part : {1.0, 0.5, 0.2}) follow_jump(part);
+  for (const Real part : {1.0, 0.5, 0.2, 0.12}) follow_jump(part);
 }
 
 // A step over an extreme of a sine would not see it by the values at its ends.
@@ -91,7 +92,7 @@ TEST(OfPlaceAndTime, NoStepLeapsOverAnExtreme) {
     EXPECT_LE(dt, T / 15) << t;
     t += dt;
   }
-  EXPECT_LE(steps, 64 * 4);
+  EXPECT_LE(steps, 80 * 4);
 }
 
 // One at the place 0.125 in 0.1 to 0.3, another at 0.75 in 0.6 to 0.8, hardly less.

@@ -80,7 +80,18 @@ def saw():
     assert most < 0.7 * LENGTH  # that of a parabola is 0.6
 
 
+def small_falls():
+    """No short step that takes a part of a fall is followed by a long one that takes the rest."""
+    for part in (0.95, 0.94, 0.925):
+        flow = run("fall", {"patches_inlet_flow_rate": f"0,0\n0.5,1\n0.8,1\n0.80001,{part}\n2,{part}\n"},
+                   patches_inlet_type="flow_rate", patches_outlet_type="pressure", fluid_viscosity=0.1, time_end=2)
+        growth = max(b / a for a, b in zip(flow["dt"], flow["dt"][1:]))
+        print(f"fall to {part}: a step is at most {growth:.2f} times as long as the one before")
+        assert growth < 2
+
+
 heartbeat()
 oscillation()
 switched_off()
 saw()
+small_falls()
