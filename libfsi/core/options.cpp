@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -44,6 +45,8 @@ std::optional<std::string> raw(const std::string& name) {
   FSI_PETSC(
       PetscOptionsGetString(nullptr, nullptr, ("-" + name).c_str(), text, sizeof text, &given));
   if (given == PETSC_FALSE) return std::nullopt;
+  require(std::strlen(text) + 1 < sizeof text,
+          "option -" + name + " has more than 4094 characters; give a shorter value");
   return std::string(text);
 }
 
@@ -182,8 +185,10 @@ int Options::integer(const std::string& name, int fallback, const Spec& spec) {
 
 bool Options::flag(const std::string& name, bool fallback, const std::string& help) {
   const auto text = raw(name);
+  std::string word = text.value_or("");  // in small letters: YAML has True and FALSE too
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto one_of = [&](std::initializer_list<const char*> words) {
-    return std::find(words.begin(), words.end(), *text) != words.end();
+    return std::find(words.begin(), words.end(), word) != words.end();
   };
   const bool yes = text ? one_of({"", "true", "yes", "on", "1"}) : fallback;
   require(
@@ -303,8 +308,8 @@ std::map<std::string, std::string> Options::values() const {
 std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
   text += "# libfsi " + version() + ", commit " + commit() + "\n";
-  for (const Entry& entry : entries_)
-    if (!entry.value.empty()) text += entry.name + ": " + quoted(entry.value) + "\n";
+  for (const Entry& entry : entries_)  // a run that went on is repeated from its start
+    if (!entry.value.empty() && entry.name != "restart") text += entry.name + ": " + quoted(entry.value) + "\n";
   bool headed = false;
   for (const auto& [name, value] : all_given()) {
     const std::string plain = plain_name(name);  // a solid may have capitals in its name

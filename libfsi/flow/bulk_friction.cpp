@@ -8,7 +8,6 @@
 namespace fsi::flow {
 
 BulkFriction::BulkFriction(const Mesh& mesh, Projection& projection, Openings& openings) {
-  constexpr Real round_off = 1e-13;
   FaceField<Real> flux(mesh);
   CellField<Vec3> grad(mesh);
   BoundaryField<Real> q_b(mesh);
@@ -20,7 +19,7 @@ BulkFriction::BulkFriction(const Mesh& mesh, Projection& projection, Openings& o
     }
     q_b.fill(0), flux.fill(0);
     for (Index f = opening.patch.begin; f < opening.patch.end; ++f) q_b[f - mesh.n_internal] = 1;
-    projection.project(flux, one.share, grad, q_b, round_off * mesh.total_volume);
+    projection.project(flux, one.share, grad, q_b, 0);
   }
 }
 

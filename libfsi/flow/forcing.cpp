@@ -22,17 +22,18 @@ Forcing::Forcing(const Mesh& mesh, Projection& projection, const Vec3& axis, Rea
   for (Index f = 0; f < mesh.n_internal; ++f) phi_1_[f] = dot(axis_, mesh.Sf[f]);
   // Rounding is enough in a straight channel, where the uniform field is the solution itself.
   constexpr Real round_off = 1e-13;
-  projection.project(phi_1_, potential_, u_1_, potential_b_, round_off * mesh.total_volume);
+  projection.project(phi_1_, potential_, u_1_, potential_b_, round_off * size(phi_1_, mesh));
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = axis_ - u_1_[c];
   mean_1_ = mean(phi_1_);
 }
 
 // phi_1 = rho_0 / rho_f (axis . S), projected;   u_1 = rho_0 axis / rhohat - rho_0 grad q / rhohat
-void Forcing::renew(Projection& projection, const Density& density, Real absolute) {
+void Forcing::renew(Projection& projection, const Density& density) {
   phi_1_.fill(0);
   for (Index f = 0; f < mesh_.n_internal; ++f)
     phi_1_[f] = density.rho_0() / density.of_face()[f] * dot(axis_, mesh_.Sf[f]);
-  projection.project(phi_1_, potential_, u_1_, potential_b_, absolute);
+  constexpr Real relative = 1e-10;
+  projection.project(phi_1_, potential_, u_1_, potential_b_, relative * size(phi_1_, mesh_));
   for (Index c = 0; c < mesh_.n_cells; ++c)
     u_1_[c] = density.rho_0() * density.divided(axis_, c) - u_1_[c];
   mean_1_ = mean(phi_1_);

@@ -23,7 +23,7 @@ class Forcing {
 
   /// Collective. Sets phi_1 and u_1 anew for a density: a uniform force accelerates a solid by less
   /// or more than the fluid.
-  void renew(Projection& projection, const Density& density, Real absolute);
+  void renew(Projection& projection, const Density& density);
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
   /// friction: kappa_w (bulk_friction.hpp).

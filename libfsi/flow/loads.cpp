@@ -15,18 +15,17 @@ Loads::Loads(const Mesh& mesh, Projection& projection, Openings& openings, Real 
   const std::size_t n = responses_.size();
   S_.resize(n * n), A_.resize(n * n), pi_.resize(n), flow_.resize(n), sums_.resize(n);
   lines_.resize(n);
-  constexpr Real round_off = 1e-13;
-  renew(projection, round_off * mesh.total_volume);
+  renew(projection);
 }
 
-void Loads::renew(Projection& projection, Real absolute) {
+void Loads::renew(Projection& projection) {
   const std::size_t n = responses_.size();
   for (Response& r : responses_) {
     const Patch& patch = r.opening->patch;
     q_b_.fill(0);
     for (Index f = patch.begin; f < patch.end; ++f) q_b_[f - mesh_.n_internal] = 1;
     r.phi.fill(0);
-    projection.project(r.phi, r.q, r.grad_q, q_b_, absolute);
+    projection.project(r.phi, r.q, r.grad_q, q_b_, 0);
   }
   for (std::size_t k = 0; k < n; ++k) {
     set_flow_rates(responses_[k].phi);

@@ -25,7 +25,7 @@ class Loads {
   Loads(const Mesh& mesh, Projection& projection, Openings& openings, Real rho);
 
   /// Collective. Sets the responses anew, which is needed after each change of the density.
-  void renew(Projection& projection, Real absolute);
+  void renew(Projection& projection);
   /// Collective. After a projection over dt: adds the loads' part to phi (every face), q and grad_q
   /// (owned and halo). Updates the pressures, stored pressures and trends of the loaded openings.
   /// trend_over: the time over which the trend of the flow rates is taken to hold.

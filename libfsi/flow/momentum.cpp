@@ -151,7 +151,7 @@ void Momentum::hold_old_of_part() {
 // A step multiplies a mode of the eigenvalue i z / dt by 1 + (1/4 - 5/8 w) z^4, w the weight of
 // AB3. Symmetric convection has no others: with w = 3/4 it stays stable longest and loses less
 // energy.
-Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) const {
+Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) {
   constexpr Real whole = 0.66, none = 0.9;
   const Real most = scheme_ == Convection::symmetric ? 0.75 : 1;
   Real part = 0;
@@ -159,7 +159,8 @@ Real Momentum::ab3_weight(const MomentumTerms& terms, Real dt) const {
     const Real courant = dt * courant_rate(terms.phi, mesh_, c);
     part = std::max(part, mesh_.simplex(c) ? std::min(courant, terms.explicit_courant) : courant);
   }
-  return std::clamp((none - global_max(part)) / (none - whole), Real{0}, most);
+  courant_ = global_max(part);
+  return std::clamp((none - courant_) / (none - whole), Real{0}, most);
 }
 
 // Histories are written in place: checkpoints and backups know their address.
@@ -191,15 +192,12 @@ void Momentum::add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Re
   const auto w = adams_bashforth(dt, dt_old, 0, 0);
   const Real share = extrapolated(dt);
   CellField<Vec3>& rest = history_.rest;
-  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += w[1] * rest[c];
+  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += (share * w[1]) * rest[c];
   rest.fill({});
   viscous_oblique(rest, terms.mu, terms.L_f, boundary_, weights_, mesh_);
   if (terms.parabola != nullptr) terms.parabola->add_excess(rest, terms.mu, u, terms.u_b);
   if (terms.mu_varies) viscous_transposed(rest, terms.mu, mu_0_, terms.L, boundary_, mesh_);
-  for (Index c = 0; c < mesh_.n_owned; ++c) {
-    rhs_[c] += (1 - share + w[0] * share) * rest[c];
-    rest[c] *= share;
-  }
+  for (Index c = 0; c < mesh_.n_owned; ++c) rhs_[c] += (1 - share + share * w[0]) * rest[c];
 }
 
 void Momentum::add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {

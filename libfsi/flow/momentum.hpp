@@ -98,6 +98,8 @@ class Momentum {
   Real theta_at(Real dt) const;
   /// theta_f of the last `predict`, what goes with its u*.
   const FaceField<Real>& theta_taken() const { return theta_f_; }
+  /// The largest Courant number of the last `predict`, of the fluxes that it began with.
+  Real courant() const { return courant_; }
   /// Collective. There is an explicit viscous term of a viscosity up to mu_max: raises theta_at and
   /// extrapolates less of the rest. The transposed term needs a theta_max of 1, the parabola of the
   /// walls 3/4. Between two steps; the largest of several holds.
@@ -126,7 +128,7 @@ class Momentum {
 
  private:
   /// Collective. The part of AB3 in a step of dt.
-  Real ab3_weight(const MomentumTerms& terms, Real dt) const;
+  Real ab3_weight(const MomentumTerms& terms, Real dt);
   void set_theta(Real theta_now);
   /// The least of an irregular face.
   Real theta_of(Index f, Real theta_now) const;
@@ -156,6 +158,7 @@ class Momentum {
   FaceField<Real> theta_f_;
   std::vector<Index> raised_;  // where theta_f_ is raised for one-sided gradients
   CellField<Vec3> rhs_;
+  Real courant_ = 0;
   std::optional<Old> old_;
   bool whole_past_ = false;  // also where theta is 1 at all faces
   std::vector<Real> w_, b_;  // dim values a cell: [n_cells], [n_owned]

@@ -318,4 +318,11 @@ Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh) {
   return global_max(worst);
 }
 
+Real size(const FaceField<Real>& phi, const Mesh& mesh) {
+  Sum squares;  // every face once: by the rank of its owner
+  for (Index f = 0; f < mesh.n_faces; ++f)
+    if (mesh.owner[f] < mesh.n_owned) squares.add(phi[f] * phi[f]);
+  return std::sqrt(squares.total());
+}
+
 }  // namespace fsi::flow

@@ -172,4 +172,7 @@ void divergence(CellField<Real>& div, const FaceField<Real>& phi, const Mesh& me
 /// max over owned cells of all ranks of |sum_f phi_f| / V.
 Real divergence_max(const FaceField<Real>& phi, const Mesh& mesh);
 
+/// Collective. (sum_f phi_f^2)^(1/2): what the rounding of a divergence is measured by.
+Real size(const FaceField<Real>& phi, const Mesh& mesh);
+
 }  // namespace fsi::flow

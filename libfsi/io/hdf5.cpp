@@ -26,6 +26,13 @@ hid_t text_type(std::size_t length) {
   return type;
 }
 
+/// An attribute has less than 64 KiB, so a longer text is several: NAME, NAME.1, NAME.2 ...
+constexpr std::size_t longest = 60'000;
+
+std::string name_of_part(const std::string& name, std::size_t i) {
+  return i == 0 ? name : name + "." + std::to_string(i);
+}
+
 /// At the end of the program HDF5 would tidy up what a failed write left open, and falls over it.
 void leave_the_end_alone() { H5dont_atexit(); }
 
@@ -145,10 +152,12 @@ void Hdf5Image::attribute(const std::string& object, const std::string& name,
 
 void Hdf5Image::attribute(const std::string& object, const std::string& name,
                           const std::string& value) {
-  if (!ok_) return;
-  const Handle type(text_type(value.size()), H5Tclose);
-  ok_ = type.ok();
-  attach(object, name, type, 1, value.c_str());
+  for (std::size_t i = 0; ok_ && (i == 0 || i * longest < value.size()); ++i) {
+    const std::string part = value.substr(i * longest, longest);
+    const Handle type(text_type(part.size()), H5Tclose);
+    ok_ = type.ok();
+    attach(object, name_of_part(name, i), type, 1, part.c_str());
+  }
 }
 
 void Hdf5Image::link(const std::string& path, const std::string& file) {
@@ -242,14 +251,20 @@ bool Hdf5File::attribute(const std::string& object, const std::string& name,
 bool Hdf5File::attribute(const std::string& object, const std::string& name,
                          std::string& value) const {
   const Quiet quiet;
-  const Handle held(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
-  if (!held.ok()) return false;
-  const Handle type(H5Aget_type(held), H5Tclose);
-  if (!type.ok() || H5Tget_class(type) != H5T_STRING) return false;
-  std::string text(H5Tget_size(type), '\0');
-  if (H5Aread(held, type, text.data()) < 0) return false;
-  value = text.substr(0, text.find('\0'));
+  std::string all;
+  for (std::size_t i = 0;; ++i) {
+    const Handle held(H5Aopen_by_name(file_, object.c_str(), name_of_part(name, i).c_str(),
+                                      H5P_DEFAULT, H5P_DEFAULT),
+                      H5Aclose);
+    if (!held.ok() && i > 0) break;
+    if (!held.ok()) return false;
+    const Handle type(H5Aget_type(held), H5Tclose);
+    if (!type.ok() || H5Tget_class(type) != H5T_STRING) return false;
+    std::string text(H5Tget_size(type), '\0');
+    if (H5Aread(held, type, text.data()) < 0) return false;
+    all += text.substr(0, text.find('\0'));
+  }
+  value = all;
   return true;
 }
 

@@ -359,12 +359,12 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   // A start from rest has no advective limit but from what moves at the boundary. A hundredth of
   // the run is small enough then.
   constexpr int steps_of_start = 10;
-  if (solver.state().step < steps_of_start)
+  if (solver.steps() < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
   if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
   if (solver.body() != nullptr) all.push_back({solver.strain_dt(solid::strain_of_part), "strain"});
   if (time.step_first > 0)
-    all.push_back({time.step_first * std::pow(step_growth, solver.state().step), "start"});
+    all.push_back({time.step_first * std::pow(step_growth, solver.steps()), "start"});
   if (time.step_max > 0) all.push_back({time.step_max, "step_max"});
   return all;
 }

@@ -28,7 +28,8 @@ std::map<std::string, std::string> lines(const std::string& text) {
 
 /// Whether an option sets the solid's shape or place at the start.
 bool of_undeformed_solid(const std::string& name) {
-  constexpr std::array geometry{"shape", "center", "axis", "angle", "radius", "height", "axes"};
+  constexpr std::array geometry{"shape",  "center", "axis", "angle",     "radius",
+                                "height", "axes",   "path", "arc_length"};
   return name.starts_with("solid") &&
          std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
 }

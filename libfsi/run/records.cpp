@@ -185,39 +185,19 @@ std::vector<Real> values(const std::vector<Entry>& row) {
   return result;
 }
 
-CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
-  CellField<SymTensor> B(mesh, identity());
-  for (Index c = 0; c < mesh.n_cells; ++c)
-    if (body.alpha[c] > 0) B[c] = body.B_of(c);
-  return B;
-}
-
-namespace {
-
-/// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
-SymTensor isochoric(SymTensor B, int dim) {
-  const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
-  if (!(J2 > 0)) return identity();
-  B = (1 / (dim == 2 ? std::sqrt(J2) : std::cbrt(J2))) * B;
-  if (dim == 2) B.zz = 1;
-  return B;
-}
-
-}  // namespace
-
 Real surface_area(const Body& body) {
   Sum area;
   for (const Index c : body.interface.cells) area.add(body.interface.piece[c].area);
+  // Between a full and an empty cell the face itself is the surface.
+  const Mesh& mesh = body.mesh;
+  const auto whole = [&](Index c) { return body.interface.piece[c].area == 0; };
+  for (const Index f : body.band.faces()) {
+    if (f >= mesh.n_internal || mesh.owner[f] >= mesh.n_owned) continue;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    if (whole(P) && whole(N) && std::abs(body.alpha[P] - body.alpha[N]) > 0.5)
+      area.add(norm(mesh.Sf[f]));
+  }
   return area.total();
-}
-
-Real elastic_energy(const Body& body) { return elastic_energy(body, B_field(body, body.mesh)); }
-
-Real elastic_energy(const Body& body, CellField<SymTensor> B) {
-  // With left_cauchy_green det B drifts, so the energy is that of B / (det B)^(1/dim).
-  if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
-    for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
-  return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
 Real shape_energy(const Body& body) {

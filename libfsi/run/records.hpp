@@ -78,17 +78,10 @@ class SolidRecord {
 /// The largest drift of the volume, of all solids.
 Real largest_drift(const std::vector<SolidRecord>& records);
 
-/// B of every cell: the unit tensor outside the solid.
-CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
-
 /// Collective. Area (length in 2-D) of a solid's surface in the fluid: that of the planes in its
 /// cells. An isosurface of alpha would round a small body.
 Real surface_area(const Body& body);
 
-/// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
-Real elastic_energy(const Body& body);
-/// The same with the B of `B_field`.
-Real elastic_energy(const Body& body, CellField<SymTensor> B);
 /// Collective. Elastic energy of the strain that the map gives, of the memory or of the map
 /// kinematics; 0 without one.
 Real shape_energy(const Body& body);

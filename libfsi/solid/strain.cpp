@@ -6,6 +6,10 @@
 
 namespace fsi::solid {
 
+Strain largest(const Strain& strain) {
+  return {.rate = global_max(strain.rate), .of_part = global_max(strain.of_part)};
+}
+
 int parts(Real strain, int most) {
   const Real wanted = global_max(strain) / strain_of_part;
   // A strain that is not a number gives one part.

@@ -55,7 +55,7 @@ Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
   if (!body.semi_implicit()) return {};
   if (dt > elastic_max * elastic_dt(body))
     return {which + " became too stiff for the step", Term::elasticity, &body};
-  if (dt > strain_dt(solid::strain_max) || global_max(body.strain.of_part) > solid::strain_max)
+  if (dt > strain_dt(solid::strain_max) || body.strain.of_part > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};
   if (global_min(body.eigenvalue_min) < eigenvalue_limit)
     return {"the smallest eigenvalue of B" + (body.name.empty() ? "" : " of " + which) +

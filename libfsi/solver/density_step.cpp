@@ -53,9 +53,8 @@ void Solver::balance_weight(State& state) {
 
 void Solver::renew_responses() {
   if (!heavy_) return;
-  constexpr Real relative = 1e-10;
-  if (forcing_) forcing_->renew(projection_, heavy_->density, relative * mesh_.total_volume);
-  loads_.renew(projection_, relative * mesh_.total_volume);
+  if (forcing_) forcing_->renew(projection_, heavy_->density);
+  loads_.renew(projection_);
 }
 
 }  // namespace fsi

@@ -30,11 +30,62 @@ void add_kinetic_energy(Sum& sum, const Solver& solver) {
   }
 }
 
+/// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
+SymTensor isochoric(SymTensor B, int dim) {
+  const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
+  if (!(J2 > 0)) return identity();
+  B = (1 / (dim == 2 ? std::sqrt(J2) : std::cbrt(J2))) * B;
+  if (dim == 2) B.zz = 1;
+  return B;
+}
+
 }  // namespace
 
-EnergyBalance::EnergyBalance(const Solver& solver) : u_b_(solver.mesh()) {
-  set_power_and_stored(solver);
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh) {
+  CellField<SymTensor> B(mesh, identity());
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    if (body.alpha[c] > 0) B[c] = body.B_of(c);
+  return B;
+}
+
+Real elastic_energy(const Body& body) { return elastic_energy(body, B_field(body, body.mesh)); }
+
+Real elastic_energy(const Body& body, CellField<SymTensor> B) {
+  // With left_cauchy_green det B drifts, so the energy is that of B / (det B)^(1/dim).
+  if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
+    for (Index c = 0; c < body.mesh.n_owned; ++c) B[c] = isochoric(B[c], body.mesh.dim);
+  return body.law.energy(body.G, B, body.alpha, body.mesh);
+}
+
+EnergyBalance::EnergyBalance(const Solver& solver)
+    : u_b_(solver.mesh()), u_b_old_(solver.mesh()), phi_b_old_(solver.mesh()) {
+  resume(solver);
   least_ = largest_ = stored_;
+}
+
+void EnergyBalance::resume(const Solver& solver) {
+  const Real read = power_of_flow_;
+  set_velocities(solver);
+  keep_velocities(solver);
+  set_powers_and_stored(solver);
+  if (steps_ > 0) power_of_flow_ = read;
+  power_ = power_of_flow_ + power_of_step_;
+}
+
+void EnergyBalance::set_velocities(const Solver& solver) {
+  const State& state = solver.state();
+  set_boundary_velocity(u_b_, state.u, solver.conditions(), state.t, solver.mesh());
+  through_ = solver.holds_mean_velocity() ? solver.mean_velocity() : 0;
+}
+
+void EnergyBalance::keep_velocities(const Solver& solver) {
+  const Index first = solver.mesh().n_internal;
+  u_b_old_.assign(u_b_);
+  for (Index b = 0; b < phi_b_old_.size(); ++b) phi_b_old_[b] = solver.state().phi[first + b];
+  through_old_ = through_;
+  if (solver.density() == nullptr) return;
+  if (!u_old_) u_old_.emplace(solver.mesh());
+  u_old_->assign(solver.state().u);
 }
 
 Real kinetic_energy(const Solver& solver) {
@@ -43,74 +94,91 @@ Real kinetic_energy(const Solver& solver) {
   return sum.total();
 }
 
-void EnergyBalance::set_power_and_stored(const Solver& solver) {
-  std::array<Sum, 3> sums;
-  add_power(sums[0], sums[2], solver);
-  add_power_of_boundary(sums[0], solver);
-  add_power_of_parabola(sums[0], solver);
-  add_kinetic_energy(sums[1], solver);
+void EnergyBalance::set_powers_and_stored(const Solver& solver) {
+  std::array<Sum, 5> sums;
+  auto& [of_flow, of_step, force, kinetic, elastic] = sums;
+  add_power_of_force(of_flow, force, solver);
+  add_power_of_weight(of_step, force, solver);
+  add_power_of_boundary(of_flow, of_step, solver);
+  add_power_of_parabola(of_flow, solver);
+  add_kinetic_energy(kinetic, solver);
+  Real of_drifting = 0;
   for (const Body& body : solver.bodies())
-    body.law.add_energy(sums[1], body.G, body.B, body.alpha, solver.mesh());
-  std::array<Real, 3> totals{};
+    if (std::holds_alternative<solid::LeftCauchyGreen>(body.kinematics))
+      of_drifting += elastic_energy(body);
+    else
+      body.law.add_energy(elastic, body.G, body.B, body.alpha, solver.mesh());
+  std::array<Real, 5> totals{};
   Sum::totals(totals, sums);
-  power_ = totals[0], stored_ = totals[1];
+  power_of_flow_ = totals[0], power_of_step_ = totals[1];
+  power_of_step_ +=
+      solver.driving_gradient() * (through_old_ + through_) / 2 * solver.mesh().total_volume;
+  kinetic_ = totals[3], elastic_ = totals[4] + of_drifting;
+  stored_ = kinetic_ + elastic_;
   const Real length = std::pow(solver.mesh().total_volume, Real{1} / solver.mesh().dim);
   resolved_ = borne * totals[2] * length;
   for (const Body& body : solver.bodies())
     resolved_ += energy_rounding * body.G * body.filled.volume;
 }
 
-void EnergyBalance::add_power_of_boundary(Sum& sum, const Solver& solver) {
+void EnergyBalance::add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
   const FaceWeights& weights = solver.weights();
   const flow::Density* density = solver.density();
-  set_boundary_velocity(u_b_, state.u, solver.conditions(), state.t, mesh);
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const bool open = fixes_pressure(solver.conditions()[i]);
     const bool slips = lets_slip(solver.conditions()[i]);
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal, P = mesh.owner[f];
       const Vec3 u = open ? state.u[P] : u_b_[b];
-      const Real phi = state.phi[f], p = open ? solver.p_b()[b] : state.p[P];
+      const Real p =
+          open ? solver.p_b()[b] : state.p[P] + dot(solver.pressure_gradient()[P], mesh.d[f]);
       const Real rho = density ? density->of_face()[f] : solver.physics().rho;
-      sum.add(-(p + rho / 2 * norm2(u)) * phi);
+      of_flow.add(-rho / 2 * norm2(u) * state.phi[f]);
+      of_step.add(-p * (phi_b_old_[b] + state.phi[f]) / 2);
       if (open || slips) continue;
-      sum.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
+      const Vec3 mean = 0.5 * (u_b_old_[b] + u);
+      of_flow.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
       for (const Body& body : solver.bodies()) {
         if (body.alpha[P] <= 0) continue;
         const Vec3& S = mesh.Sf[f];
         Vec3 traction = dot(dev(body.T()[P]), S);
         if (body.film && body.film->faces()[static_cast<std::size_t>(b)] != 0)
           traction = (dot(traction, S) / norm2(S)) * S;
-        sum.add(body.alpha_f[f] * body.G * dot(traction, u));
+        of_step.add(body.alpha_f[f] * body.G * dot(traction, mean));
       }
     }
   }
 }
 
 // V u = sum_f sigma phi (x_f - x_c), from the fluxes of the faces. It is exact for a uniform force,
-// whose work is zero without inflow. Summed over the cells, S . V u is sum_f phi S . d.
-void EnergyBalance::add_power(Sum& power, Sum& force, const Solver& solver) {
+// whose work is zero without inflow.
+void EnergyBalance::add_power_of_force(Sum& power, Sum& force, const Solver& solver) {
+  if (!solver.driving_force()) return;
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
-  Sum of_gradient;
-  if (const Vec3 S = solver.driving_gradient() * solver.axis(); norm2(S) > 0)
-    for (Index f = 0; f < mesh.n_faces; ++f)
-      if (mesh.owner[f] < mesh.n_owned) of_gradient.add(state.phi[f] * dot(S, mesh.d[f]));
-  power.add(of_gradient);
-  const bool heavy =
-      std::ranges::any_of(solver.bodies(), [](const Body& body) { return norm2(body.weight) > 0; });
-  if (!solver.driving_force() && !heavy) return;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     Vec3 moved;
     for (const Index face : mesh.cell_faces[c])
       moved += (outward(mesh, face, c) * state.phi[face]) * (mesh.face_centre(face, c) - mesh.C[c]);
-    Vec3 f, weight;
-    if (solver.driving_force()) f = solver.driving_force()(mesh.C[c], state.t);
-    for (const Body& body : solver.bodies()) weight += body.alpha[c] * body.weight;
-    power.add(dot(f, moved) + mesh.V[c] * dot(weight, state.u[c]));
-    force.add(mesh.V[c] * norm(f + weight));
+    const Vec3 f = solver.driving_force()(mesh.C[c], state.t);
+    power.add(dot(f, moved));
+    force.add(mesh.V[c] * norm(f));
+  }
+}
+
+void EnergyBalance::add_power_of_weight(Sum& power, Sum& force, const Solver& solver) const {
+  if (!u_old_) return;
+  const Mesh& mesh = solver.mesh();
+  for (const Body& body : solver.bodies()) {
+    if (norm2(body.weight) == 0) continue;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (!(body.alpha[c] > 0)) continue;
+      const Vec3 weight = (mesh.V[c] * body.alpha[c]) * body.weight;
+      power.add(dot(weight, 0.5 * ((*u_old_)[c] + solver.state().u[c])));
+      force.add(norm(weight));
+    }
   }
 }
 
@@ -124,15 +192,19 @@ void EnergyBalance::add_power_of_parabola(Sum& sum, const Solver& solver) const 
   }
 }
 
+// Stress and pressure of a step are those of its middle, so R is taken there.
 void EnergyBalance::add(const Solver& solver, Real dt) {
-  const Real before = power_;
-  set_power_and_stored(solver);
-  work_ += dt * (before + power_) / 2;
-  done_ += dt * (std::abs(before) + std::abs(power_)) / 2;
+  const Real before = power_of_flow_, kinetic = kinetic_;
+  set_velocities(solver);
+  set_powers_and_stored(solver);
+  power_ = (before + power_of_flow_) / 2 + power_of_step_;
+  const Real rest = (kinetic + kinetic_) / 2 + elastic_ - (work_ + dt * power_ / 2);
+  work_ += dt * power_;
+  done_ += dt * std::abs(power_);
   largest_ = std::max({largest_, stored_, resolved_});
-  const Real rest = stored_ - work_;
   least_ = ++steps_ <= start ? rest : std::min(least_, rest);
   made_ = std::max(made_, rest - least_);
+  keep_velocities(solver);
 }
 
 Real EnergyBalance::part_made() const {
@@ -145,7 +217,7 @@ void EnergyBalance::list(io::Snapshot& snapshot) {
   snapshot.add("energy_largest", &largest_);
   snapshot.add("energy_work", &work_);
   snapshot.add("energy_done", &done_);
-  snapshot.add("energy_power", &power_);
+  snapshot.add("energy_power", &power_of_flow_);
   snapshot.add("energy_made", &made_);
   snapshot.add("energy_steps", &steps_);
 }

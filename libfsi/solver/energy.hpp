@@ -1,9 +1,19 @@
 #pragma once
 // The balance of energy of a run: stored energy against work.
 
+#include <optional>
+
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
+
+/// B of every cell: the unit tensor outside the solid.
+CellField<SymTensor> B_field(const Body& body, const Mesh& mesh);
+
+/// Collective. Elastic energy of a solid's B, with left_cauchy_green of B / (det B)^(1/dim).
+Real elastic_energy(const Body& body);
+/// The same with the B of `B_field`.
+Real elastic_energy(const Body& body, CellField<SymTensor> B);
 
 /// Collective. sum_c rho u^2 V / 2, rho by the fractions of the cell.
 Real kinetic_energy(const Solver& solver);
@@ -13,15 +23,17 @@ Real kinetic_energy(const Solver& solver);
 /// gradient. Viscosity only takes energy away, so E - W can only fall. Any rise of it was made by
 /// the scheme, however much viscosity took before:
 ///
-///   made = max over t > s > t_0 of ((E - W)(t) - (E - W)(s)),  at least 0
+///   R = E - W,  made = max over t > s > t_0 of R(t) - R(s),  at least 0
 ///   dW/dt = sum_b {mu (g (u_b - u_P) + e_b) . u_b + alpha_b (tau . S) . u_b -
 ///                  (p_b + rho |u_b|^2 / 2) phi}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
 /// b are the boundary faces, S and phi outward, e_b the excess of a flat wall (WallParabola). The
-/// viscous and elastic part is there if the velocity is given. The sum in time is by the
-/// trapezoidal rule. t_0 is the end of the first twenty steps, since a flow that starts from an
-/// impulse is not judged.
+/// viscous and elastic part is there if the velocity is given. p, p_b, S, tau
+/// and alpha of a step are those of its middle: they take the mean of the old and the new u and
+/// phi, the other terms the mean of both powers. R is taken at the middle of the step, with the
+/// mean of both kinetic energies. t_0 is the end of the first twenty steps, since a flow that
+/// starts from an impulse is not judged.
 class EnergyBalance {
  public:
   static constexpr int start = 20;  ///< steps that are not judged
@@ -31,9 +43,12 @@ class EnergyBalance {
   /// Collective. After a step of length dt.
   void add(const Solver& solver, Real dt);
 
+  /// Collective. Goes on from the solver's state, once that and the list were read.
+  void resume(const Solver& solver);
+
   /// E: kinetic and elastic energy.
   Real stored() const { return stored_; }
-  /// dW/dt.
+  /// dW/dt, mean of the last step.
   Real power() const { return power_; }
   /// The largest E so far, or what is rounding if that is more.
   Real largest() const { return largest_; }
@@ -52,13 +67,22 @@ class EnergyBalance {
   void list(io::Snapshot& snapshot);
 
  private:
-  void set_power_and_stored(const Solver& solver);
-  static void add_power(Sum& power, Sum& force, const Solver& solver);
-  void add_power_of_boundary(Sum& sum, const Solver& solver);
+  void set_velocities(const Solver& solver);
+  void keep_velocities(const Solver& solver);
+  void set_powers_and_stored(const Solver& solver);
+  static void add_power_of_force(Sum& power, Sum& force, const Solver& solver);
+  void add_power_of_weight(Sum& power, Sum& force, const Solver& solver) const;
+  void add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solver& solver);
   /// What the parabola of the walls adds to mu g (u_b - u_P) . u_b.
   void add_power_of_parabola(Sum& sum, const Solver& solver) const;
 
-  BoundaryField<Vec3> u_b_;
+  BoundaryField<Vec3> u_b_, u_b_old_;     // now, and after the step before
+  BoundaryField<Real> phi_b_old_;         // its flux
+  std::optional<CellField<Vec3>> u_old_;  // where a solid has a weight
+  Real through_ = 0, through_old_ = 0;    // mean velocity, where it is held
+  Real power_of_flow_ = 0;                // of what belongs to the flow's time
+  Real power_of_step_ = 0;                // of what belongs to the middle of the last step
+  Real kinetic_ = 0, elastic_ = 0;
   Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
   Real resolved_ = 0;  // below it energies are rounding
   std::int64_t steps_ = 0;

@@ -88,7 +88,6 @@ Real Solver::elastic_dt() const {
 Real Solver::strain_dt(Real strain) const {
   Real rate = 0;
   for (const Body& body : bodies_) rate = std::max(rate, body.strain.rate);
-  rate = global_max(rate);
   return rate > 0 ? strain / rate : std::numeric_limits<Real>::max();
 }
 

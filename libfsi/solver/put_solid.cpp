@@ -92,6 +92,7 @@ void Solver::put_solid(const Solid& solid) {
   }
   mix_viscosity(mu_);
   mix_density();
+  begun_ = state_.step;
   hold_backup();
 }
 

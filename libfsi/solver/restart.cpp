@@ -10,7 +10,7 @@ void list_opening(io::Snapshot& snapshot, flow::Openings::One& opening) {
   if (!opening.load.any()) return;
   snapshot.add("stored_" + name, &opening.stored);
   snapshot.add("flow_" + name, &opening.flow);
-  snapshot.add("flow_known_" + name, &opening.flow_known);
+  snapshot.add("known_flow_" + name, &opening.flow_known);
   snapshot.add("trend_" + name, &opening.trend);
 }
 
@@ -33,6 +33,7 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("momentum_steps", &momentum_.steps_taken);
   for (flow::Openings::One& opening : openings_.all()) list_opening(snapshot, opening);
   snapshot.add("dt_cap", &dt_cap_);
+  if (prescribed_) snapshot.add("flow_passed", &passed_);
   if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
   for (Body& body : bodies_) body.list(snapshot);
 }

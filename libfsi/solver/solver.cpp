@@ -124,7 +124,7 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   openings_.set_pressure(p_b_, state_.u);
   flow::predict_flux(state_.phi, state_.u, u_b_, momentum_.boundary().open, flux_terms(0), weights_,
                      mesh_);
-  projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * mesh_.total_volume);
+  projection_.project(state_.phi, q_, grad_q_, q_b_, 1e-12 * flow::size(state_.phi, mesh_));
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] -= grad_q_[c];
   if (forcing_) {
     forcing_->hold(state_.u, state_.phi, physics_.rho, 0, 1);
@@ -277,12 +277,15 @@ void Solver::predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real d
 void Solver::project(State& state, Real dt) {
   const Profile::Call call(profile_, calls_.project);
   flow::divergence(divergence_, state.phi, mesh_);
-  constexpr Real volume_change = 1e-10;  // of a cell in a step, that the tolerance may leave
+  // What the tolerance may leave, of a cell in a step. It leaves an error of rho L^2 / dt^2 times
+  // this in p, so it falls with the Courant number where steps are short.
+  constexpr Real volume_change = 1e-10, least = 1e-4;
+  const Real part = std::clamp(4 * momentum_.courant() * momentum_.courant(), least, Real{1});
   renew_responses();
   bulk_friction_.begin();
   openings_.advance(q_b_, state.t + dt / 2, dt / physics_.rho);
   const SolveResult solve =
-      projection_.project(state.phi, q_, grad_q_, q_b_, volume_change * cells_norm_ / dt);
+      projection_.project(state.phi, q_, grad_q_, q_b_, part * volume_change * cells_norm_ / dt);
   loads_.answer(state.phi, q_, grad_q_, state.t + dt / 2, dt, flow::reach(dt, momentum_.dt_before));
   if (modes_.implicit_convection) courant_.share(grad_q_, *stiff_, dt / physics_.rho, weights_);
   for (Index c = 0; c < mesh_.n_cells; ++c) {

@@ -117,6 +117,9 @@ class Solver {
   /// kinematics watches it.
   Real strain_dt(Real strain) const;
 
+  /// Steps since the start, or since a solid was put in.
+  std::int64_t steps() const { return state_.step - begun_; }
+
   /// The mesh.
   const Mesh& mesh() const { return mesh_; }
   ///@{
@@ -149,6 +152,8 @@ class Solver {
   const BoundaryField<Vec3>& u_b() const { return u_b_; }
   /// Pressure at the boundary.
   const BoundaryField<Real>& p_b() const { return p_b_; }
+  /// Gradient of the pressure that the last step began with.
+  const CellField<Vec3>& pressure_gradient() const { return grad_p_; }
   /// Viscosity at the faces, of the last step.
   const FaceField<Real>& mu() const { return mu_; }
   /// Weights of the faces.
@@ -166,6 +171,8 @@ class Solver {
   const CellField<Tensor>& velocity_gradient();
   /// Driving pressure gradient S; zero without a mean velocity.
   Real driving_gradient() const { return forcing_ ? forcing_->gradient : 0; }
+  /// Whether a mean velocity is held.
+  bool holds_mean_velocity() const { return forcing_.has_value(); }
   /// Of the mean velocity, a unit vector.
   Vec3 axis() const { return axis_; }
   /// Volume mean of the velocity along the axis; collective.
@@ -340,6 +347,7 @@ class Solver {
   bool prescribed_ = false;  // whether all that flows in and out is given
   Real passed_ = 0;          // the most of it so far
   std::optional<Backup> backup_;
+  std::int64_t begun_ = 0;                          // the step at which the last solid was put in
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
   int tiny_steps_ = 0;                              // in a row

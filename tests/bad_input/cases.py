@@ -70,6 +70,8 @@ OPTIONS = [
     option("density zero", "-fluid_density 0", "-fluid_density", "value > 0"),
     option("a division anew of a run in one go", "-solid_shape sphere -solid_radius 0.15 -solid_center 0.5,0.5,0"
            " -restart_divide", "-restart_divide", "in one go", driver="fsi-advect"),
+    option("steps of a motion that is given", "-solid_shape sphere -solid_radius 0.15 -solid_center 0.5,0.5,0"
+           " -describe_step", "-describe_step", "computes no flow", driver="fsi-advect"),
     option("value missing", "-time_end", "-time_end"),
     option("end of time zero", "-time_end 0", "-time_end", "value > 0"),
     option("Courant number too large", "-time_courant 7", "-time_courant", "<= 1"),

@@ -58,6 +58,24 @@ TEST(Options, NoneIsAnEmptyListAsHelpHasIt) {
   EXPECT_EQ(sentence("-l none,in", with_others), "");
 }
 
+TEST(Options, AFlagIsReadWhateverItsCapitals) {
+  const auto read = [](Options& options) {
+    EXPECT_TRUE(options.flag("a", false, ""));
+    EXPECT_FALSE(options.flag("b", true, ""));
+    EXPECT_TRUE(options.flag("c", false, ""));
+  };
+  EXPECT_EQ(sentence("-a True -b OFF -c", read), "");
+  const auto wrong = [](Options& options) { options.flag("a", false, ""); };
+  EXPECT_EQ(sentence("-a Ture", wrong),
+            "option -a: \"Ture\" is not valid; choose from: true, false");
+}
+
+TEST(Options, AValueIsNotCutOff) {
+  const auto read = [](Options& options) { options.text("a", "", ""); };
+  const std::string text = sentence(("-a " + std::string(5000, 'x')).c_str(), read);
+  EXPECT_EQ(text, "option -a has more than 4094 characters; give a shorter value");
+}
+
 TEST(Options, WithoutAFallbackMustBeGiven) {
   const auto read = [](Options& options) {
     const Real given = options.real("capacitance", std::numeric_limits<Real>::quiet_NaN(),

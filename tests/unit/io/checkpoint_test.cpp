@@ -74,6 +74,24 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_FALSE(exists(io::temporary_of(folder / "checkpoint_0001.h5")));
 }
 
+// HDF5 keeps no attribute of 64 KiB in one piece.
+TEST(Checkpoint, KeepsALongText) {
+  const Mesh mesh = test::read_box(periodic_box());
+  const Folder folder;
+  const auto snapshot_of = [](std::string& text) {
+    io::Snapshot all("long");
+    all.add("text", &text);
+    return all;
+  };
+  for (const std::size_t size : {0, 59'999, 60'000, 60'001, 250'000}) {
+    std::string text(size, 'a'), again = "b";
+    if (size > 0) text.back() = 'z';
+    EXPECT_TRUE(Checkpoint(folder.path(), mesh).write(snapshot_of(text)));
+    Checkpoint(folder.path(), mesh).read(snapshot_of(again));
+    EXPECT_EQ(again, text) << size;
+  }
+}
+
 TEST(Checkpoint, TwoAreKeptAndTheNewestIsRead) {
   const Mesh mesh = test::read_box({.n = {3, 2, 0}});
   const Folder folder;

@@ -85,6 +85,18 @@ TEST(StableStep, GrowsByATenthFromTheFirst) {
   }
 }
 
+// The first steps of a solid that is put into a flow are short, too.
+TEST(StableStep, BeginsAnewWithASolid) {
+  Uniform flow;
+  const TimeSetup time{.end = 1000, .step_first = 1e-3};
+  for (int i = 0; i < 30; ++i) flow.solver.advance(stable_dt(flow.solver, time).dt);
+  EXPECT_EQ(flow.solver.steps(), 30);
+  flow.solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1});
+  EXPECT_EQ(flow.solver.steps(), 0);
+  EXPECT_EQ(stable_dt(flow.solver, time).name, "start");
+  EXPECT_NEAR(stable_dt(flow.solver, time).dt, 1e-3, 1e-15);
+}
+
 // So does a force, or a velocity at a patch, that a driver's function gives.
 TEST(StableStep, FollowsADriversFunctions) {
   constexpr Real period = 0.05, longest = period / 6;

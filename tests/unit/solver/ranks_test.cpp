@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
@@ -51,6 +52,17 @@ std::string different(Solver& solver, const io::Layout& cells, const io::Layout&
   return names;
 }
 
+/// Collective. The numbers that a checkpoint would hold of which some rank has another.
+std::string other_scalars(Solver& solver) {
+  io::Snapshot all;
+  solver.list(all);
+  std::string names;
+  for (const auto& [name, scalar] : all.scalars())
+    if (const auto* real = std::get_if<Real*>(&scalar))
+      if (global_max(**real) != global_min(**real)) names += " " + name;
+  return names;
+}
+
 void expect_one_state(const Scene& scene) {
   const Mesh mesh = test::read_box({.n = scene.n, .simplex = scene.simplex});
   Conditions conditions{{"top", Wall{{1, 0, 0}}}};
@@ -72,6 +84,7 @@ void expect_one_state(const Scene& scene) {
                               solver.carried_dt(), solver.elastic_dt()});
     ASSERT_GT(solver.advance(dt), 0) << solver.report().failure;
     ASSERT_EQ(different(solver, cells, faces), "") << "after step " << i + 1;
+    ASSERT_EQ(other_scalars(solver), "") << "after step " << i + 1;
   }
   if (!scene.energy) return;
   Sum energy;

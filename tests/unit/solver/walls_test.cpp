@@ -181,5 +181,27 @@ TEST(Walls, FrictionIsStableAtAnyViscosity) {
     }
 }
 
+// What is explicit of the friction is extrapolated in part. A steady flow stays as it is whatever
+// the lengths of the steps.
+TEST(Walls, FrictionOfASteadyFlowIsThatOfAnyStep) {
+  const Mesh mesh =
+      test::read_box({.n = {4, 16, 0}, .length = {0.25, 1, 1}, .periodic = {"left", "right"}});
+  constexpr Real mu = 1, f = 12 * mu, dt = 0.01;  // mean velocity 1
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = mu},
+      {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}, .body_force = [](const Vec3&, Real) {
+         return Vec3{f, 0, 0};
+       }});
+  solver.start([](const Vec3& x) { return Vec3{6 * x.y * (1 - x.y), 0, 0}; });
+  for (int i = 0; i < 400; ++i) solver.step(dt);
+  const Real before = solver.mean_velocity();
+  Real most = 0;
+  for (const Real part : {1.0, 0.5, 0.5, 1.0, 0.1, 0.1, 1.0, 1.0}) {
+    solver.step(part * dt);
+    most = std::max(most, std::abs(solver.mean_velocity() / before - 1));
+  }
+  EXPECT_LE(most, 1e-7);
+}
+
 }  // namespace
 }  // namespace fsi
