@@ -132,6 +132,9 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {
     const bool fit = by_fit(snapshot, c);
+    // In a cell at a wall the map's gradient is one-sided, and that of the velocity is not. Stress
+    // from the map would push such a cell farther off.
+    if (!fit && extension_.inner(c) && memory.at_wall(c)) continue;
     // Near walls of the zone the memory is less accurate than psi: the cells that carry it have a
     // given velocity on one side.
     const Real of_wave = !fit ? by_wave : snapshot.one_sided->near_wall(c) ? 0 : by_wave_in_zone;

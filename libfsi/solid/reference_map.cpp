@@ -118,6 +118,10 @@ void ReferenceMap::extend() {
   mesh_.halo.update(slope_);
 }
 
+bool ReferenceMap::has_one_side(Index f) const {
+  return f >= mesh_.n_internal && !extension_.symmetry().has(f, mesh_);
+}
+
 bool ReferenceMap::leaves_known(Index f, Index c) const {
   const Index n = beyond(mesh_, f, c);
   return n >= 0 && filled_[n] < alpha_known;
@@ -186,6 +190,13 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
     const Real there = filled_[n] >= alpha_known ? volume_ratio(n) : 1;
     grad_J += (there - J) * weight(f, c);
   }
+  // At a boundary the slope of d is one-sided, so J rises where d of the cell itself falls. Moved
+  // along its normal, d would grow without bound.
+  for (const Index f : mesh_.cell_faces[c])
+    if (has_one_side(f)) {
+      const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+      grad_J -= dot(grad_J, n) * n;
+    }
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
   Vec3 way = courant * grad_J;
   if (beside_psi_ && snapshot.wave_speed > 0) {

@@ -86,6 +86,8 @@ class ReferenceMap {
   SymTensor B(Index c, Real alpha) const;
   /// Trust vartheta in the map of a cell: 1 - |log2 J|, at least 0.
   Real trust(Index c) const;
+  /// Whether a cell has a face on a wall.
+  bool at_wall(Index c) const { return at_wall_[c] > 0; }
   /// grad xihat, where it is set; owned and halo.
   const CellField<Tensor>& slope() const { return slope_; }
   /// Owned cells where d is set: the solid's and three rings around them.
@@ -102,6 +104,9 @@ class ReferenceMap {
   const Vec3& weight(Index f, Index c) const {
     return mesh_.owner[f] == c ? of_owner_[f] : of_neighbour_[f];
   }
+  /// Whether grad xi of the cell at face f is one-sided for it: a boundary face, but for planes of
+  /// symmetry.
+  bool has_one_side(Index f) const;
   /// Whether face f leads from known cell c to a cell that is not known.
   bool leaves_known(Index f, Index c) const;
   /// Whether known cell c has an unknown cell beyond a face, and neither c nor such a cell has a
