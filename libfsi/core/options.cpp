@@ -309,7 +309,8 @@ std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
   text += "# libfsi " + version() + ", commit " + commit() + "\n";
   for (const Entry& entry : entries_)  // a run that went on is repeated from its start
-    if (!entry.value.empty() && entry.name != "restart") text += entry.name + ": " + quoted(entry.value) + "\n";
+    if (!entry.value.empty() && entry.name != "restart")
+      text += entry.name + ": " + quoted(entry.value) + "\n";
   bool headed = false;
   for (const auto& [name, value] : all_given()) {
     const std::string plain = plain_name(name);  // a solid may have capitals in its name

@@ -83,7 +83,8 @@ void EnergyBalance::keep_velocities(const Solver& solver) {
   u_b_old_.assign(u_b_);
   for (Index b = 0; b < phi_b_old_.size(); ++b) phi_b_old_[b] = solver.state().phi[first + b];
   through_old_ = through_;
-  if (solver.density() == nullptr) return;
+  const auto heavy = [](const Body& body) { return norm2(body.weight) > 0; };
+  if (std::ranges::none_of(solver.bodies(), heavy)) return;
   if (!u_old_) u_old_.emplace(solver.mesh());
   u_old_->assign(solver.state().u);
 }

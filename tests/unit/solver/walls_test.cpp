@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/energy.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -201,6 +205,46 @@ TEST(Walls, FrictionOfASteadyFlowIsThatOfAnyStep) {
     most = std::max(most, std::abs(solver.mean_velocity() / before - 1));
   }
   EXPECT_LE(most, 1e-7);
+}
+
+/// A layer of solid between a wall at rest and one that slides to and fro, with a disturbance of
+/// 1e-6: the largest u_y in it at the end, and the part of the energy that was made.
+std::array<Real, 2> disturbed_layer(bool simplex) {
+  constexpr Index n = 16;
+  constexpr Real G = 10, mu = 0.02, rho = 0.1, a = 0.1, dt = 2.5e-3;
+  const Mesh mesh = test::read_box({.n = {4, n, 0},
+                                    .length = {4.0 / n, 1, 1},
+                                    .simplex = simplex,
+                                    .periodic = {"left", "right"}});
+  const FixedVelocity wall{[](const Vec3&, Real t) {
+    return Vec3{a * std::cos(2 * std::numbers::pi * t), 0, 0};
+  }};
+  Solver solver(mesh, {.rho = rho, .mu_f = mu},
+                {.conditions = {{"bottom", Wall{}}, {"top", wall}}});
+  solver.start([](const Vec3& x) {
+    return Vec3{a * x.y + 1e-6 * std::sin(1e4 * x.x + 1e3 * x.y), 1e-6 * std::cos(2e4 * x.x), 0};
+  });
+  solver.put_solid({.shape = shapes::translate(shapes::box({200, 1, 200}), {0, 0.5, 0}),
+                    .G = G,
+                    .mu = mu,
+                    .rho = rho});
+  EnergyBalance energy(solver);
+  for (int i = 0; i < 1600; ++i) {
+    solver.step(dt);
+    energy.add(solver, dt);
+  }
+  Real most = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) most = std::max(most, std::abs(solver.state().u[c].y));
+  return {global_max(most), energy.part_made()};
+}
+
+// Waves along a wall must not feed on the one-sided gradient of the map there.
+TEST(Walls, ALayerBetweenThemStaysUniform) {
+  for (const bool simplex : {false, true}) {
+    const auto [spread, made] = disturbed_layer(simplex);
+    EXPECT_LE(spread, 1e-5) << simplex;
+    EXPECT_LE(made, 1e-3) << simplex;
+  }
 }
 
 }  // namespace
