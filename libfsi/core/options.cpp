@@ -308,9 +308,11 @@ std::map<std::string, std::string> Options::values() const {
 std::string Options::yaml() const {
   std::string text = "# " + program_ + ": every option as resolved; this file repeats the run\n";
   text += "# libfsi " + version() + ", commit " + commit() + "\n";
-  for (const Entry& entry : entries_)  // a run that went on is repeated from its start
-    if (!entry.value.empty() && entry.name != "restart")
-      text += entry.name + ": " + quoted(entry.value) + "\n";
+  for (const Entry& entry : entries_) {
+    const bool went_on = entry.name == "restart";  // that run is repeated from its start
+    if (!entry.value.empty())
+      text += entry.name + ": " + quoted(went_on ? "false" : entry.value) + "\n";
+  }
   bool headed = false;
   for (const auto& [name, value] : all_given()) {
     const std::string plain = plain_name(name);  // a solid may have capitals in its name

@@ -66,8 +66,8 @@ PrescribedAdvectionOutput::PrescribedAdvectionOutput(const Case& setup, const Op
   require(
       !setup.output.restart && !setup.output.divide_anew && setup.output.checkpoint_interval == 0,
       "options -restart, -restart_divide and -checkpoint_interval: fsi-advect runs in one go");
-  for (const char* name : {"flow_from", "describe_step", "end_when_empty"})
-    require(!options.given(name), "option -" + std::string(name) + ": fsi-advect computes no flow");
+  require(setup.flow_from.empty() && !setup.output.describe_step && !setup.output.end_when_empty,
+          "options -flow_from, -describe_step and -end_when_empty: fsi-advect computes no flow");
   io::write_text(setup.output.directory + "/run.yaml", options.yaml());
   const Row first = row();
   table_.emplace(setup.output.directory + "/solid.csv", names(first.entries));

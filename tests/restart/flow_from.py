@@ -67,7 +67,7 @@ def main():
     run(ball, "0.26", "-flow_from", empty, *sphere, "-restart")
     check(float(rows(ball, "solid.csv")[-1]["t"]) == 0.26, "a restart needs the other folder no more")
     with open(os.path.join(ball, "run.yaml"), encoding="utf-8") as file:
-        check("\nrestart:" not in file.read(), "run.yaml repeats a run from its start")
+        check('restart: "false"' in file.read(), "run.yaml repeats a run from its start")
     errors, _ = run(ball, "0.27", *sphere[:-1], "0.7", "-restart", code=2)
     check(len(errors) == 1 and "-solid_arc_length 0.7 (was 0.6)" in errors[0], f"another place is refused: {errors}")
     errors, _ = run(whole, "1", "-flow_from", whole, code=2)
