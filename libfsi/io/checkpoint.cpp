@@ -17,7 +17,7 @@
 namespace fsi::io {
 namespace {
 
-constexpr std::int64_t format = 1;
+constexpr std::int64_t format = 2;
 
 /// The text behind the HDF5 file: its length and check. HDF5 does not read it.
 constexpr std::size_t trailer_size = 96;

@@ -357,7 +357,7 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   constexpr int least_steps = 20;
   all.push_back({time.end / least_steps, "end"});
   // A start from rest has no advective limit but from what moves at the boundary. A hundredth of
-  // the run is small enough then.
+  // the run is small enough then, and after a solid is put in.
   constexpr int steps_of_start = 10;
   if (solver.steps() < steps_of_start)
     all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});

@@ -19,6 +19,7 @@ void list_opening(io::Snapshot& snapshot, flow::Openings::One& opening) {
 void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("t", &state_.t);
   snapshot.add("step", &state_.step);
+  snapshot.add("step_of_put_solid", &begun_);
   snapshot.add("u", state_.u);
   snapshot.add("p", state_.p);
   snapshot.add("phi", state_.phi);
