@@ -278,11 +278,12 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
 void Output::write_rows(const Limit& limit, Real dt) {
   const State& s = solver_.state();
   const std::vector<Real> times = samples_.due(s.t);
-  // A next step that is longer still ends at the row.
-  constexpr Real longer = 1.25;
+  constexpr Real longer = 1.25;  // a next step that is longer still ends at the row
+  // Each row follows the solids from the one before, so some are made that are not written.
+  constexpr std::int64_t steps_between = 5;
   const bool near = samples_.near(s.t, longer * std::max(dt, limit.dt));
   std::vector<Row> now;
-  if (near || !times.empty()) {
+  if (near || !times.empty() || s.step % steps_between == 0) {
     const Real seconds = stopwatch_.seconds();
     const auto steps = static_cast<Real>(std::max<std::int64_t>(1, s.step - row_step_));
     now = rows(limit, dt, (seconds - rows_at_) / steps);
@@ -298,14 +299,13 @@ void Output::write_rows(const Limit& limit, Real dt) {
 
 void Output::write_fields() {
   solver_.at_one_time([this] {
-    const Mesh& mesh = solver_.mesh();
     const State& s = solver_.state();
-    CellField<Real> Q(mesh);
+    CellField<Real> Q(solver_.mesh());
     analysis::q_criterion(Q, solver_.velocity_gradient());
     std::vector fields{io::named("u", s.u), io::named("p", s.p), io::named("Q", Q)};
     std::deque<CellField<SymTensor>> B;
     for (const Body& body : solver_.bodies()) {
-      B.push_back(B_field(body, mesh));
+      B.push_back(B_field(body, body.mesh));
       const std::string of = body.name.empty() ? "" : "_" + body.name;
       fields.push_back(io::named("alpha" + of, body.alpha));
       fields.push_back(io::named("B" + of, B.back()));

@@ -18,13 +18,6 @@ SymTensor twice_symmetric(const Tensor& L) {
 
 Vec3 along_surface(const Vec3& v, const Vec3& m) { return v - dot(v, m) * m; }
 
-/// Whether the surface lies between the centres of face f, beyond rounding of alpha.
-bool at_surface(const Surface& surface, const Mesh& mesh, Index f) {
-  if (f >= mesh.n_internal || norm2(surface.normal_f[f]) == 0) return false;
-  const Real a = surface.alpha[mesh.owner[f]], b = surface.alpha[mesh.neighbour[f]];
-  return is_cut(a) || is_cut(b) || std::abs(a - b) > 0.5;
-}
-
 /// (v m + m v) . S
 Vec3 shear(const Vec3& v, const Vec3& m, const Vec3& S) { return dot(m, S) * v + dot(v, S) * m; }
 
@@ -33,6 +26,7 @@ Vec3 shear(const Vec3& v, const Vec3& m, const Vec3& S) { return dot(m, S) * v +
 SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G,
                                  Viscosities mu)
     : mesh_(mesh),
+      weights_(weights),
       G_(G),
       mu_(mu),
       mu_least_(std::max(mu.solid, mu.fluid / 4)),
@@ -61,9 +55,18 @@ void SurfaceTraction::clear(const Band& band) {
   last_faces_ = band.faces();
 }
 
+bool SurfaceTraction::at_surface(const Surface& surface, Index f) const {
+  if (f >= mesh_.n_internal || norm2(surface.normal_f[f]) == 0) return false;
+  const Real a = surface.alpha[mesh_.owner[f]], b = surface.alpha[mesh_.neighbour[f]];
+  if (!is_cut(a) && !is_cut(b) && std::abs(a - b) <= 0.5) return false;
+  constexpr Real rounding = 1e-6;  // of mu_s - mu_f
+  const Real excess = mu_.solid - mu_.fluid, own = excess * (a + weights_.lambda[f] * (b - a));
+  return std::abs(surface.mu[f] - mu_.fluid - own) <= rounding * std::abs(excess);
+}
+
 void SurfaceTraction::mark(const Surface& surface, const Band& band) {
   for (const Index f : band.faces()) {
-    if (!at_surface(surface, mesh_, f)) continue;
+    if (!at_surface(surface, f)) continue;
     for (const Index c : {mesh_.owner[f], mesh_.neighbour[f]})
       if (c < mesh_.n_owned) touch_[c] = uncut(surface.alpha[c]) ? 2 : 1;
   }
@@ -126,26 +129,24 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
   mesh_.halo.update(own_);
 }
 
-SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m,
-                                              const FaceWeights& weights) const {
+SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m) const {
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real both = fitted_[P] + fitted_[N];
   const Real p = fitted_[P] / both, n = fitted_[N] / both;
   return {p * L_[P] + n * L_[N], along_surface(p * kink_[P] + n * kink_[N], m),
-          face_mean(own_, f, weights, mesh_)};
+          face_mean(own_, f, weights_, mesh_)};
 }
 
-SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface,
-                                                       const FaceWeights& weights) const {
+SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface) const {
   const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real alpha_f = surface.alpha_f[f];
   const Vec3 du = surface.u[N] - surface.u[P];
-  const Sides side = sides(f, m, weights);
+  const Sides side = sides(f, m);
   const Tensor L = side.L + alpha_f * outer(side.a, m);  // mean over the line between the centres
   const SymTensor D = twice_symmetric(L);                // 2 D
   const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
-  const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights, mesh_), m);
+  const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights_, mesh_), m);
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
   const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
@@ -154,8 +155,8 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Real series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
   const Vec3 e_mS =
-      along_surface(weights.g[f] * (du - dot(L, along_surface(d, m))) +
-                        dot(m, weights.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
+      along_surface(weights_.g[f] * (du - dot(L, along_surface(d, m))) +
+                        dot(m, weights_.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
                     m);
   // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
   const Vec3 traction = (mu_h - mu_.fluid) * (e_mS + dot(e, S) * m) +
@@ -167,19 +168,19 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
 }
 
 void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
-                                 const Surface& surface, const FaceWeights& weights,
-                                 PressureStencil& pressure, const Band& band) {
+                                 const Surface& surface, PressureStencil& pressure,
+                                 const Band& band) {
   const CellField<Real>& alpha = surface.alpha;
   for (const Index f : band.faces()) {
-    if (!at_surface(surface, mesh_, f)) continue;
+    if (!at_surface(surface, f)) continue;
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     if (fitted_[P] + fitted_[N] == 0) continue;
-    const FaceExcess at_face = excess_at(f, surface, weights);
+    const FaceExcess at_face = excess_at(f, surface);
     const Real s = at_face.s;
     const Vec3 S = mesh_.Sf[f], du = surface.u[N] - surface.u[P];
     // the stress of the momentum equation that it replaces: the mean viscosity
-    Vec3 along_S = weights.g[f] * du;
-    if (const Index i = weights.place[f]; i >= 0) along_S += dot(surface.L_f[i], weights.k[f]);
+    Vec3 along_S = weights_.g[f] * du;
+    if (const Index i = weights_.place[f]; i >= 0) along_S += dot(surface.L_f[i], weights_.k[f]);
     const Real mean_excess = surface.mu[f] - mu_.fluid;
     const auto flux_of = [&](Index c) {
       return at_face.flux + (alpha[c] * s) * S -
@@ -194,7 +195,7 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_c
 }
 
 void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surface,
-                                     const FaceWeights& weights, const Band& band) const {
+                                     const Band& band) const {
   const Real excess = std::abs(mu_.solid - mu_.fluid);
   const bool in = mu_.solid > mu_.fluid;
   const auto L_of = [&](Index c) -> const Tensor& {
@@ -210,10 +211,10 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
     for (const Index f : mesh_.cell_faces[c]) {
       const Index P = mesh_.owner[f];
       const Real out = P == c ? 1 : -1;
-      if (at_surface(surface, mesh_, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
+      if (at_surface(surface, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
       Tensor L_f = more_viscous ? L_of(c) : none;
       if (more_viscous && f < mesh_.n_internal)
-        L_f = (1 - weights.lambda[f]) * L_of(P) + weights.lambda[f] * L_of(mesh_.neighbour[f]);
+        L_f = (1 - weights_.lambda[f]) * L_of(P) + weights_.lambda[f] * L_of(mesh_.neighbour[f]);
       sum += out * dot(transpose(L_f + (more_viscous && !in ? none : in_place)), mesh_.Sf[f]);
     }
     force[c] += (excess / mesh_.V[c]) * sum;
@@ -221,8 +222,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
 }
 
 void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source,
-                            const Surface& surface, const FaceWeights& weights,
-                            PressureStencil& pressure, const Band& band) {
+                            const Surface& surface, PressureStencil& pressure, const Band& band) {
   clear(band);
   mark(surface, band);
   for (const Index c : band.cells())
@@ -230,8 +230,8 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_s
   mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
   take_own_strain(surface, band);
   mesh_.halo.update(L_in_);
-  add_excess(force, rhie_chow_source, surface, weights, pressure, band);
-  add_transposed(force, surface, weights, band);
+  add_excess(force, rhie_chow_source, surface, pressure, band);
+  add_transposed(force, surface, band);
   jump_force_.apply(force, rhie_chow_source, pressure, band);
   mesh_.halo.update(force);
 }

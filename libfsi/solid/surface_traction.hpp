@@ -56,15 +56,18 @@ struct Viscosities {
 /// In uncut cells of the more viscous side the transposed gradient becomes a sum of fluxes too,
 /// |mu_s - mu_f| L_f^T . S with L of that side. On the other side it has no such fluxes. The flux
 /// of a face is the same for both of its cells.
+///
+/// A face that another solid with a viscosity of its own shares keeps the mean viscosity and the
+/// elastic stress as they are: each of the two would subtract the part of both.
 class SurfaceTraction {
  public:
-  /// Collective.
+  /// Collective. mesh and weights must outlive it.
   SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G, Viscosities mu);
 
   /// Collective. Adds to the force, and adds the rises of s_mu to c_f (`rhie_chow_source`). band:
   /// that of the elastic stress, force and c_f cleared there.
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
-             const FaceWeights& weights, PressureStencil& pressure, const Band& band);
+             PressureStencil& pressure, const Band& band);
 
   /// Beyond this ratio mu_s / mu_f the mean viscosity stays: so large a stress, taken explicitly,
   /// makes the strain rough.
@@ -87,31 +90,34 @@ class SurfaceTraction {
 
  private:
   void clear(const Band& band);
+  /// Whether the surface lies between the centres of face f, beyond rounding of alpha, and the
+  /// viscosity of f is that of this solid and the fluid alone.
+  bool at_surface(const Surface& surface, Index f) const;
   /// Whether a cell is uncut and on the more viscous side.
   bool uncut(Real alpha) const;
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
   void add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
-                  const FaceWeights& weights, PressureStencil& pressure, const Band& band);
-  void add_transposed(CellField<Vec3>& force, const Surface& surface, const FaceWeights& weights,
-                      const Band& band) const;
+                  PressureStencil& pressure, const Band& band);
+  void add_transposed(CellField<Vec3>& force, const Surface& surface, const Band& band) const;
   /// The stress above times S at a face, without alpha_c s_mu I and over the lesser viscosity;
   /// s_mu.
   struct FaceExcess {
     Vec3 flux;
     Real s;
   };
-  FaceExcess excess_at(Index f, const Surface& surface, const FaceWeights& weights) const;
+  FaceExcess excess_at(Index f, const Surface& surface) const;
   /// Gradient on the fluid's side, kink a and 2 D of the solid's own side at a face.
   struct Sides {
     Tensor L;
     Vec3 a;
     SymTensor own;
   };
-  Sides sides(Index f, const Vec3& m, const FaceWeights& weights) const;
+  Sides sides(Index f, const Vec3& m) const;
 
   const Mesh& mesh_;
+  const FaceWeights& weights_;
   Real G_;
   Viscosities mu_;
   Real mu_least_;                 // mu_s as it counts in mu_h

@@ -34,6 +34,9 @@ struct Solid {
   /// log_conformation: least thickness of the film of fluid between this solid and a wall, for the
   /// friction in it; 0: half a cell (solid/wall_film.hpp).
   Real film_thickness = 0;
+  /// Whether the checkpoint of a restart is about to replace its state. It may then overlap other
+  /// solids, which have left the place where it enters.
+  bool from_checkpoint = false;
   /// Sizes by default, in words, for the message that the solid does not fit.
   std::string by_default{};
 };

@@ -16,12 +16,12 @@ std::string called(const Body& body) {
   return body.name.empty() ? "the solid" : "solid \"" + body.name + "\"";
 }
 
-/// by_default: sizes of its shape that nobody chose. Errors: Error{input} where the body does not
-/// fit among the others.
-void require_place(const Body& body, const std::string& by_default, const std::deque<Body>& others,
+/// Errors: Error{input} where the body that was made of `solid` does not fit among the others.
+void require_place(const Body& body, const Solid& solid, const std::deque<Body>& others,
                    const Mesh& mesh) {
-  const std::string which = called(body),
-                    sizes = by_default.empty() ? "" : "; by default it has " + by_default;
+  const std::string which = called(body), sizes = solid.by_default.empty()
+                                                      ? ""
+                                                      : "; by default it has " + solid.by_default;
   if (!(body.filled.volume > 0))
     throw Error(ErrorKind::input,
                 which + " is empty: its shape lies outside the mesh or is smaller than a cell" +
@@ -37,7 +37,7 @@ void require_place(const Body& body, const std::string& by_default, const std::d
               "or of several periods for one without ends" +
               sizes);
   for (const Body& other : others) {
-    if (&other == &body) continue;
+    if (&other == &body || solid.from_checkpoint) continue;
     Real most = 0;
     for (Index c = 0; c < mesh.n_owned; ++c)
       if (body.alpha[c] > 0 && other.alpha[c] > 0)
@@ -79,7 +79,7 @@ void Solver::put_solid(const Solid& solid) {
   Body& body = bodies_.back();
   body.t = state_.t;
   try {
-    require_place(body, solid.by_default, bodies_, mesh_);
+    require_place(body, solid, bodies_, mesh_);
   } catch (const Error&) {
     bodies_.pop_back();  // all ranks throw alike
     throw;

@@ -230,7 +230,7 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
     traction.apply(force, rhie_chow_source,
                    {flow.u, L, flow.L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal,
                     height, flow.mu},
-                   body.weights, flow.pressure, body.band);
+                   flow.pressure, body.band);
   }
   if (body.body_force)
     body.body_force->apply(force, rhie_chow_source,

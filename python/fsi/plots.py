@@ -80,14 +80,14 @@ def chosen_panels(show, tables):
     if not show:
         return [panel for panel in panels if panel.key not in OF_THE_RUN], False
     found = []
-    for word in KEYS if show == ["all"] else show:
+    for word in [key for word in show for key in (KEYS if word == "all" else [word])]:
         known = [panel for panel in panels if panel.key == word]
         of = [name for name in dict.fromkeys(["solid", "flow", *tables]) if word in tables[name]]
         if not known and not of:
             raise ValueError(f'nothing is called "{word}"; there are {", ".join(KEYS)}, all, and the '
                              "columns of the csv files")
         found += known or [Panel(word, word, of[0], (word,), unit_of(word))]
-    return found, show != ["all"]
+    return found, "all" not in show
 
 
 def unit_of(column):

@@ -316,7 +316,7 @@ def _period(points, pairs):
             ends = [points[abs(points[:, axis] - end) < 1e-6 * np.ptp(points)] for end in
                     (low[axis], high[axis])]
             ends = [np.delete(end, axis, axis=1) for end in ends]
-            ends = [end[np.lexsort(np.round(end, 6).T)] for end in ends]
+            ends = [end[np.lexsort(np.round(end / np.ptp(points), 6).T)] for end in ends]
             if high[axis] > low[axis] and not period[axis] and len(ends[0]) == len(ends[1]) and \
                     np.allclose(*ends, atol=1e-5 * np.ptp(points)):
                 period[axis] = high[axis] - low[axis]

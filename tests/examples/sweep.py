@@ -114,6 +114,19 @@ def main():
                   for name in ("slow", "as it is")]
     check(velocities == [["0.5"], ["1"]], f"points with names, one with the case's value: {velocities}")
 
+    pair = os.path.join(folder, "pair.yaml")
+    with open(pair, "w", encoding="utf-8") as file:
+        file.write("solids:\n" + "".join(
+            f"  {name}: {{shape: sphere, radius: 0.1, center: [{x}], shear_modulus: 0.1}}\n"
+            for name, x in (("left", "0.3,0.5,0"), ("right", "0.7,0.5,0"))))
+    with open(named, "w", encoding="utf-8") as file:
+        file.write("name, lid_velocity\npair, 0.5\n")
+    subprocess.run([pair if word == case else word for word in short], stdin=subprocess.DEVNULL, capture_output=True,
+                   check=False)
+    rows = list(csv.DictReader(text(out, "sweep.csv").splitlines()))
+    check(abs(float(rows[0].get("left_x", 0)) - 0.3) < 0.01 and abs(float(rows[0].get("right_x", 0)) - 0.7) < 0.01,
+          f"the columns of each of two solids: {rows[0]}")
+
     with open(named, "w", encoding="utf-8-sig") as file:  # as a spreadsheet writes it
         file.write("name;lid_velocity\nfast;2\n")
     subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, check=False)

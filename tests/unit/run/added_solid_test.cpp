@@ -46,11 +46,12 @@ struct Stream {
     solver.start([](const Vec3& x) { return Vec3{x.y - 0.5, 0, 0}; });
     put("one", {0.5, 0.6, 0});
   }
-  void put(const std::string& name, const Vec3& centre) {
+  void put(const std::string& name, const Vec3& centre, bool from_checkpoint = false) {
     solver.put_solid({.shape = shapes::translate(shapes::sphere(0.15), centre),
                       .G = 2,
                       .mu = 0.2,
-                      .name = name});
+                      .name = name,
+                      .from_checkpoint = from_checkpoint});
   }
   void take_step(Output& output, Real end) {
     Clock clock(end, solver.state().t);
@@ -60,6 +61,7 @@ struct Stream {
   }
   /// Up to `end`, with files in a folder of their own.
   void run(Real end, const std::string& folder) {
+    setup.time.end = end;
     setup.output.directory = folder;
     Output output(setup, options, solver, "test");
     while (Clock(end, solver.state().t).running() && output.go_on()) take_step(output, end);
@@ -156,6 +158,57 @@ TEST(AddedSolid, HasItsRowsInTheNextOutput) {
   EXPECT_NEAR(two.at("volume").back() / two.at("volume").front(), 1, 1e-10);
   const auto flow = columns_of(folder / "second/flow.csv");
   for (const Real made : flow.at("energy_made")) EXPECT_LE(made, 0.01);
+}
+
+// Beads enter at one place one after the other. For a restart all of them are put in at once.
+TEST(AddedSolid, BeadsThatEnterAtOnePlaceCanBeRestarted) {
+  const Folder folder;
+  const Vec3 entry{1.2, 0.82, 0};
+  Stream whole(folder / "first");
+  whole.setup.output.checkpoint_interval = 10;
+  whole.put("two", entry);
+  whole.run(1.2, folder / "first");
+  whole.put("three", entry);
+  whole.run(1.5, folder / "second");
+  whole.run(1.8, folder / "third");
+  Stream again(folder / "second");
+  again.setup.output.checkpoint_interval = 10;
+  again.setup.output.restart = true;
+  again.put("two", entry);
+  EXPECT_THROW(again.put("three", entry), Error);
+  again.put("three", entry, true);
+  again.run(1.8, folder / "second");
+  for (const std::string name : {"two", "three"}) {
+    const Real one = columns_of(folder / ("third/solid_" + name + ".csv")).at("x").back(),
+               other = columns_of(folder / ("second/solid_" + name + ".csv")).at("x").back();
+    EXPECT_NEAR(one, other, 1e-9) << name;
+  }
+}
+
+// Rows that are far apart: the solid goes nearly a whole period of 2 from one to the next.
+TEST(Rows, FollowASolidThatGoesFarBetweenThem) {
+  const Folder folder;
+  const Mesh mesh =
+      test::read_box({.n = {32, 16, 0}, .length = {2, 1, 1}, .periodic = {"left", "right"}});
+  const Options options("test", "a test");
+  Solver solver(mesh, {}, {.conditions = {{"top", Wall{{1, 0, 0}}}, {"bottom", Wall{{1, 0, 0}}}}});
+  solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.15), {0.5, 0.5, 0}), .G = 2});
+  Case setup;
+  setup.time = {.end = 5.7, .step = 0.03};
+  setup.output = {.directory = folder / "out", .sample_interval = 1.9};
+  Output output(setup, options, solver, "test");
+  Clock clock(setup.time.end, 0);
+  while (clock.running() && output.go_on()) {
+    const Limit limit = stable_dt(solver, setup.time);
+    const Real dt = solver.advance(clock.step(limit.dt, output.next_event()));
+    clock.set(solver.state().t);
+    output.after_step(limit, dt);
+  }
+  EXPECT_EQ(output.finish(), RunStatus::complete);
+  const auto solid = columns_of(folder / "out/solid.csv");
+  ASSERT_EQ(solid.at("t").size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(solid.at("x")[i], 0.5 + solid.at("t")[i], 1e-3);
 }
 
 }  // namespace

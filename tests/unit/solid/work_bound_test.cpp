@@ -73,8 +73,8 @@ struct HalfSolid {
     for (Index c = 0; c < mesh.n_cells; ++c) height[c] = mesh.C[c].y - top;
     const std::vector<Tensor> L_f(weights.irregular.size());
     solid::SurfaceTraction traction(mesh, weights, 1, {.solid = ratio, .fluid = 1});
-    traction.apply(sum, source, {u, L, L_f, T, alpha, alpha_f, normal, n, height, mu}, weights,
-                   stencil, band);
+    traction.apply(sum, source, {u, L, L_f, T, alpha, alpha_f, normal, n, height, mu}, stencil,
+                   band);
     return sum;
   }
 

@@ -9,6 +9,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
+#include "libfsi/solver/energy.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
 
@@ -67,6 +68,35 @@ TEST(Bodies, PassEachOtherAndKeepTheirVolumes) {
     if (simplex) continue;
     EXPECT_NEAR(a.centre.x + b.centre.x, 1.25, 1e-6);
     EXPECT_NEAR(a.centre.y + b.centre.y, 1, 1e-6);
+  }
+}
+
+/// Kinetic energy at t = 1 of a channel whose lower wall starts to move. Slabs of that viscosity,
+/// ten times the fluid's, lie one upon the other between these heights.
+Real energy_of_slabs(const std::vector<Real>& heights, Real mu) {
+  const Mesh mesh =
+      test::read_box({.n = {4, 32, 0}, .length = {0.125, 1, 1}, .periodic = {"left", "right"}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.01},
+                {.conditions = {{"top", Wall{}}, {"bottom", Wall{{1, 0, 0}}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i)
+    solver.put_solid({.shape = shapes::translate(shapes::box({40, heights[i + 1] - heights[i], 40}),
+                                                 {0, (heights[i] + heights[i + 1]) / 2, 0}),
+                      .G = 1,
+                      .mu = mu,
+                      .name = "slab" + std::to_string(i)});
+  while (solver.state().t < 1)
+    if (!(solver.advance(std::min(0.01, solver.elastic_dt())) > 0)) return 0;
+  return kinetic_energy(solver);
+}
+
+// Two slabs that lie on each other bear one traction, as one slab does.
+TEST(Bodies, TwoSlabsOfAnotherViscosityMoveAsOne) {
+  for (const Real mu : {0.002, 0.03, 0.1}) {
+    const Real one = energy_of_slabs({0.285, 0.715}, mu),
+               two = energy_of_slabs({0.285, 0.507, 0.715}, mu);
+    std::printf("mu_s = %g: kinetic energy of two slabs over that of one %.5f\n", mu, two / one);
+    EXPECT_NEAR(two / one, 1, 0.002);
   }
 }
 

@@ -80,8 +80,8 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
   solid::SurfaceTraction traction(mesh, weights, elastic.G, mu);
   traction.apply(
       force, rhie_chow_source,
-      {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f}, weights,
-      of_p, body.band);
+      {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f}, of_p,
+      body.band);
   CellField<Real> s(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c)
     s[c] = (tau.yy - 2 * k * (mu.solid - mu.fluid)) * body.alpha[c];
