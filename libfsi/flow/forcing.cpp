@@ -39,11 +39,17 @@ void Forcing::renew(Projection& projection, const Density& density) {
   mean_1_ = mean(phi_1_);
 }
 
-void Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt) {
+Real Forcing::hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt) {
   const Real c = (target_ - mean(phi)) / mean_1_;
   for (Index i = 0; i < mesh_.n_cells; ++i) u[i] += c * u_1_[i];
   for (Index f = 0; f < mesh_.n_internal; ++f) phi[f] += c * phi_1_[f];
-  gradient += (rho / dt + friction) * c;
+  const Real change = (rho / dt + friction) * c;
+  gradient += change;
+  return change;
+}
+
+void Forcing::add_pressure(CellField<Real>& p, Real change) const {
+  for (Index c = 0; c < mesh_.n_cells; ++c) p[c] += change * potential_[c];
 }
 
 }  // namespace fsi::flow

@@ -13,7 +13,8 @@ Real mean_velocity(const FaceField<Real>& phi, const Vec3& axis, const Mesh& mes
 /// Holds the mean velocity U_0 along `axis`. The flux phi_1 of a projected uniform force is
 /// divergence-free, so a multiple of it keeps div u = 0:
 ///   eta = (U_0 - mean(phi)) / mean(phi_1),   phi += eta phi_1,   u += eta u_1,
-///   S += (rho / dt + kappa_w) eta.
+///   S += (rho / dt + kappa_w) eta,   p += (rho / dt + kappa_w) eta q_1,
+/// q_1 the potential of the projection of the force.
 /// The mean is that of `mean_velocity`. For a divergence-free flux it is the same through every
 /// section, so a particle that crosses the period changes nothing.
 class Forcing {
@@ -26,8 +27,11 @@ class Forcing {
   void renew(Projection& projection, const Density& density);
 
   /// On return the mean is the target to round-off. Changes u (owned and halo), phi and `gradient`.
-  /// friction: kappa_w (bulk_friction.hpp).
-  void hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt);
+  /// friction: kappa_w (bulk_friction.hpp). Returns the change of `gradient`.
+  Real hold(CellField<Vec3>& u, FaceField<Real>& phi, Real rho, Real friction, Real dt);
+
+  /// Adds the pressure that belongs to a change of `gradient`; owned and halo.
+  void add_pressure(CellField<Real>& p, Real change) const;
 
   /// S: force per volume along the axis, the driving pressure gradient. Part of a checkpoint.
   Real gradient = 0;

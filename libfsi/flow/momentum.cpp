@@ -55,7 +55,12 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       const Index b = f - mesh.n_internal;
       const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
       if (fixes_pressure(conditions[i])) implicit_[b] = {};
-      if (lets_slip(conditions[i])) implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
+      if (!lets_slip(conditions[i])) continue;
+      implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};
+      const bool oblique = std::abs(n.x * n.y) + std::abs(n.y * n.z) + std::abs(n.z * n.x) > 0;
+      if (!oblique || mesh.owner[f] >= mesh.n_owned) continue;
+      system_.matrix().couplings.push_back({mesh.owner[f], n, 0});
+      coupled_.push_back(f);
     }
   if (weights.uneven) old_ = Old{CellField<Vec3>(mesh_), BoundaryField<Vec3>(mesh_)};
   set_theta(1);
@@ -131,6 +136,10 @@ void Momentum::assemble(const MomentumTerms& terms, Real dt) {
     if (f >= mesh_.n_internal) continue;
     A.off_diagonal[f] = -a;
     add(mesh_.neighbour[f], {a, a, a});
+  }
+  for (std::size_t i = 0; i < coupled_.size(); ++i) {
+    const Index f = coupled_[i];
+    A.couplings[i].a = (theta_f_[f] * terms.mu[f] + terms.kappa[f]) * weights_.g[f];
   }
   system_.renewed();
 }

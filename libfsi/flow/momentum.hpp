@@ -154,6 +154,7 @@ class Momentum {
   ViscousBoundary boundary_;
   // [n_boundary] share of the viscous flux in each component's diagonal
   std::vector<Vec3> implicit_;
+  std::vector<Index> coupled_;  // slip faces of oblique normals, in the order of the couplings
   History history_;
   FaceField<Real> theta_f_;
   std::vector<Index> raised_;  // where theta_f_ is raised for one-sided gradients

@@ -62,6 +62,17 @@ void add_faces(Real* y, const VectorMatrix& matrix, const Real* x, const Mesh& m
   }
 }
 
+/// y_c += a (n (n . x_c) - the part of the diagonal).
+template <int dim>
+void add_couplings(Real* y, const VectorMatrix& matrix, const Real* x) {
+  for (const auto& [cell, n, a] : matrix.couplings) {
+    const Real* const at = x + cell * dim;
+    Real along = 0;
+    for (int k = 0; k < dim; ++k) along += n[k] * at[k];
+    for (int k = 0; k < dim; ++k) y[cell * dim + k] += a * n[k] * (along - n[k] * at[k]);
+  }
+}
+
 /// y_c = a_cc x_c + sum_f a_f x_N, dim components a cell, of owned cells; the halo of x arrives
 /// meanwhile.
 template <int dim>
@@ -72,6 +83,7 @@ void multiply(Real* y, VectorOperator& op, const Real* x) {
   Real* const around = op.around.data();
   mesh.halo.begin(x, around, dim);
   for (Index i = 0; i < n * dim; ++i) y[i] = matrix.diagonal[i] * x[i];
+  add_couplings<dim>(y, matrix, x);
   Index begin = 0;
   for (const Index f : op.cut) {
     add_faces<dim>(y, matrix, x, mesh, begin, f);

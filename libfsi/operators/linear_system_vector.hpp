@@ -10,15 +10,23 @@
 
 namespace fsi {
 
-/// A symmetric matrix on the cell graph that couples no components: one coefficient a face for all
-/// of them, one diagonal value a cell and component.
+/// A symmetric matrix on the cell graph: one coefficient a face for all components, one diagonal
+/// value a cell and component. Components are coupled in single cells alone.
 struct VectorMatrix {
+  /// a (n n - its diagonal) in an owned cell, n a unit vector; a n_i n_i is part of `diagonal`.
+  struct Coupling {
+    Index cell;  ///< an owned one
+    Vec3 n;      ///< unit vector
+    Real a;      ///< coefficient
+  };
+
   /// A zero matrix.
   explicit VectorMatrix(const Mesh& mesh)
       : diagonal(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
         off_diagonal(static_cast<std::size_t>(mesh.n_internal)) {}
-  std::vector<Real> diagonal;      ///< [n_owned * dim]
-  std::vector<Real> off_diagonal;  ///< [n_internal] a_PN = a_NP
+  std::vector<Real> diagonal;       ///< [n_owned * dim]
+  std::vector<Real> off_diagonal;   ///< [n_internal] a_PN = a_NP
+  std::vector<Coupling> couplings;  ///< any number of them in a cell
 };
 
 /// Conjugate gradients for a matrix that changes every step and is close to its diagonal in most

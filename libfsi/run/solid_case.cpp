@@ -244,6 +244,11 @@ void put_solids(Solver& solver, const Case& setup) {
     solver.put_solid(solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;
+    if (body.bonded_faces > 0)
+      std::printf(
+          "%s: touches walls at the start and is bonded to %lld of their faces for the whole run\n",
+          (body.name.empty() ? s.shape_name : body.name).c_str(),
+          static_cast<long long>(body.bonded_faces));
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
       std::fprintf(stderr,
                    "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "

@@ -14,6 +14,12 @@ Tensor MapExtension::regression(Index c, int up_to_ring) const {
     M += w * square(r);
     R += w * outer(image(item_[k].d, n) - item_[c].d, r);
   });
+  for (const Index f : mesh_.cell_faces[c])
+    if (held(f)) {
+      const Real w = 1 / norm2(mesh_.d[f]);
+      M += w * square(mesh_.d[f]);
+      R += w * outer(-item_[c].d, mesh_.d[f]);
+    }
   return M == SymTensor{} ? Tensor{} : dot(R, raised_inverse(M, mesh_.dim));
 }
 

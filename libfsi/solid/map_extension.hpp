@@ -14,10 +14,11 @@ namespace fsi::solid {
 /// The gradient of a map must not change on the way ([Kamrin12], [Rycroft20]: regression from cells
 /// that are already set). With r_k from the cell's centre to that of its vertex neighbour k, and
 /// w_k = 1 / |r_k|^2:
-///   known cells    Gamma_c = arg min sum_k w_k |xihat_c + Gamma_c . r_k - xihat_k|^2, k known
+///   known cells    Gamma_c = arg min sum_k w_k |xihat_c + Gamma_c . r_k - xihat_k|^2, k known,
+///                  or a held face, with xihat_k = 0 at its centre
 ///   rings 1 to 3   (xihat_c, Gamma_c) = arg min sum_k w_k (|xihat_c + Gamma_c . r_k - xihat_k|^2
 ///                  + |r_k|^2 |Gamma_c - Gamma_k|^2), k known or in a ring before
-/// The second term is needed where neighbours on one side do not determine the gradient. The fit is
+/// It needs the second term where neighbours are on one side only. The fit is
 /// exact for a linear xihat on any mesh. xihat is periodic where the mesh is. Beyond a plane of
 /// symmetry the images of cells count, with R xihat_k and R Gamma_k R (symmetry_faces.hpp).
 class MapExtension {
@@ -26,6 +27,13 @@ class MapExtension {
   /// it.
   MapExtension(const Mesh& mesh, SymmetryFaces symmetry)
       : mesh_(mesh), symmetry_(std::move(symmetry)), item_(mesh), rings_(mesh) {}
+
+  /// [n_boundary] 1 on faces where xihat is 0: the solid is bonded to a wall that stands still.
+  void hold(std::vector<char> faces) { held_ = std::move(faces); }
+  /// Whether f is one of them.
+  bool held(Index f) const {
+    return !held_.empty() && f >= mesh_.n_internal && held_[f - mesh_.n_internal] != 0;
+  }
 
   /// Collective. d: owned cells known on entry; on return owned and halo set on known cells and
   /// rings, zero beyond. is_set: 1 where d is set, else 0; owned and halo.
@@ -51,6 +59,7 @@ class MapExtension {
   SymmetryFaces symmetry_;
   CellField<Item> item_;
   Rings rings_;
+  std::vector<char> held_;  // empty: none
 };
 
 }  // namespace fsi::solid

@@ -52,6 +52,19 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
   for (const Patch& patch : walls)
     for (Index f = patch.begin; f < patch.end; ++f) at_wall_[mesh.owner[f]] = 1;
   mesh.halo.update(at_wall_);
+  hold({});
+}
+
+void ReferenceMap::hold(std::vector<char> faces) {
+  extension_.hold(std::move(faces));
+  CellField<Real> one_sided(mesh_);
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (at_wall_[mesh_.owner[f]] > 0 && has_one_side(f)) one_sided[mesh_.owner[f]] = 1;
+  mesh_.halo.update(one_sided);
+  const auto is = [&](Index c) { return one_sided[c] > 0; };
+  one_sided_.clear();
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    one_sided_.push_back(is(c) ? 2 : std::ranges::any_of(mesh_.cell_neighbours[c], is) ? 1 : 0);
 }
 
 void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {
@@ -119,7 +132,7 @@ void ReferenceMap::extend() {
 }
 
 bool ReferenceMap::has_one_side(Index f) const {
-  return f >= mesh_.n_internal && !extension_.symmetry().has(f, mesh_);
+  return f >= mesh_.n_internal && !extension_.symmetry().has(f, mesh_) && !extension_.held(f);
 }
 
 bool ReferenceMap::leaves_known(Index f, Index c) const {

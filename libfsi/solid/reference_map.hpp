@@ -57,6 +57,10 @@ class ReferenceMap {
   /// The longest step over the time in which the elastic wave passes a cell.
   static constexpr Real elastic_number = 1.5;
 
+  /// Collective, before the map is set. faces: [n_boundary] 1 where the solid is bonded to a wall
+  /// that stands still. xihat is 0 there.
+  void hold(std::vector<char> faces);
+
   /// xi = x.
   void set_undeformed(const CellField<Real>& alpha);
   /// Collective. Sets anew what follows from d and alpha, after these were changed from outside.
@@ -86,8 +90,9 @@ class ReferenceMap {
   SymTensor B(Index c, Real alpha) const;
   /// Trust vartheta in the map of a cell: 1 - |log2 J|, at least 0.
   Real trust(Index c) const;
-  /// Whether a cell has a face on a wall.
-  bool at_wall(Index c) const { return at_wall_[c] > 0; }
+  /// Whether the gradient of the map in an owned cell is one-sided at a wall; near: or in a vertex
+  /// neighbour of it.
+  bool one_sided(Index c, bool near) const { return one_sided_[c] > (near ? 0 : 1); }
   /// grad xihat, where it is set; owned and halo.
   const CellField<Tensor>& slope() const { return slope_; }
   /// Owned cells where d is set: the solid's and three rings around them.
@@ -137,9 +142,10 @@ class ReferenceMap {
   std::vector<Vec3> of_owner_, of_neighbour_;  ///< weights of the faces in the gradient of a cell
   Band known_;
   MapExtension extension_;
-  CellField<Real> filled_;                    // alpha where xihat is set
-  CellField<Tensor> slope_;                   // grad xihat
-  std::vector<Vec3> new_;                     // in the order of the known cells
+  CellField<Real> filled_;       // alpha where xihat is set
+  CellField<Tensor> slope_;      // grad xihat
+  std::vector<char> one_sided_;  // owned; 2: one-sided at a wall, 1: beside such a cell
+  std::vector<Vec3> new_;        // in the order of the known cells
   std::vector<std::pair<Index, Real>> kept_;  // cells to refit and their alpha
 };
 

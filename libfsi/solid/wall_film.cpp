@@ -9,7 +9,7 @@
 namespace fsi::solid {
 
 WallFilm::WallFilm(const Mesh& mesh, const std::vector<Patch>& walls,
-                   const BoundaryField<char>& bonded)
+                   const std::vector<char>& bonded)
     : mesh_(mesh),
       at_film_(mesh),
       known_(mesh),

@@ -17,7 +17,7 @@ class WallFilm {
  public:
   /// Collective. walls: their patches. bonded: [n_boundary] 1 on faces of owned cells that the
   /// undeformed solid touches. mesh must outlive it.
-  WallFilm(const Mesh& mesh, const std::vector<Patch>& walls, const BoundaryField<char>& bonded);
+  WallFilm(const Mesh& mesh, const std::vector<Patch>& walls, const std::vector<char>& bonded);
 
   /// Collective. Sets `fraction` from the fraction of the solid, owned and halo. A cell at a film
   /// is left out if the cells farther in can tell its strain: a vertex neighbour off the films is

@@ -34,7 +34,7 @@ std::string name_of(const Kinematics& kinematics) {
 
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
            const Physics& physics, const std::vector<Patch>& mirrors,
-           const std::vector<Patch>& walls)
+           const std::vector<Patch>& walls, const std::vector<Patch>& still)
     : mesh(mesh_),
       weights(weights_),
       zone(mesh),
@@ -71,25 +71,32 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty()) make_film(walls);
+  const std::vector<char> at_walls = bonded(walls);
+  Sum faces;
+  for (const char is : at_walls) faces.add(is);
+  bonded_faces = static_cast<Index>(faces.total());
+  if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty())
+    film.emplace(mesh, walls, at_walls);
   film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,
                    SymmetryFaces{filled.cut_by.faces});
+    memory->hold(bonded(still));
     memory->set_undeformed(alpha);
   }
+  if (auto* map = std::get_if<solid::ReferenceMap>(&kinematics)) map->hold(bonded(still));
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
 }
 
-void Body::make_film(const std::vector<Patch>& walls) {
-  BoundaryField<char> bonded(mesh);
-  for (const Patch& patch : walls)
+std::vector<char> Body::bonded(const std::vector<Patch>& patches) const {
+  std::vector<char> is(static_cast<std::size_t>(mesh.n_boundary()), 0);
+  for (const Patch& patch : patches)
     for (Index f = patch.begin; f < patch.end; ++f)
-      bonded[f - mesh.n_internal] =
+      is[f - mesh.n_internal] =
           alpha[mesh.owner[f]] >= solid::alpha_known && vof::touches(f, alpha, interface, mesh);
-  film.emplace(mesh, walls, bonded);
+  return is;
 }
 
 void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
@@ -123,6 +130,7 @@ void Body::set_map(const std::function<Vec3(const Vec3&)>& xi_0) {
   require(map != nullptr, "a map can be given to reference_map only; give B");
   for (Index c = 0; c < mesh.n_cells; ++c) map->set_map(c, xi_0(mesh.C[c]));
   held = false;  // the shape put in is not the undeformed one
+  map->hold({});
   resume();
 }
 

@@ -53,11 +53,12 @@ struct TwoViscosities {
 /// A solid.
 struct Body {
   /// Collective. Fills the undeformed shape. mirrors: planes of symmetry, which may cut it; walls:
-  /// patches whose velocity is given, inlets too. If its viscosity is not the fluid's, the surface
-  /// gets an explicit traction. There is none beyond SurfaceTraction::ratio_max and with
-  /// left_cauchy_green.
+  /// patches whose velocity is given, inlets too; still: those of them that never move. If its
+  /// viscosity is not the fluid's, the surface gets an explicit traction. There is none beyond
+  /// SurfaceTraction::ratio_max and with left_cauchy_green.
   Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
-       const std::vector<Patch>& mirrors = {}, const std::vector<Patch>& walls = {});
+       const std::vector<Patch>& mirrors = {}, const std::vector<Patch>& walls = {},
+       const std::vector<Patch>& still = {});
 
   /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
   /// the map kinematics, since the map does not follow from B.
@@ -68,8 +69,9 @@ struct Body {
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight need.
   void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
-  /// Collective. Makes `film`; the planes of alpha must be those of the undeformed solid.
-  void make_film(const std::vector<Patch>& walls);
+  /// [n_boundary] 1 on faces of these patches that the solid touches, in cells that are at least
+  /// half full. The planes of alpha must be those of the undeformed solid.
+  std::vector<char> bonded(const std::vector<Patch>& patches) const;
   /// Collective. Sets anew what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -182,7 +184,8 @@ struct Body {
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< with log_conformation
-  Real film_thickness = 0;                                 ///< least; 0: half a cell
+  Index bonded_faces = 0;   ///< of all ranks: those of walls that the undeformed solid touches
+  Real film_thickness = 0;  ///< least; 0: half a cell
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;

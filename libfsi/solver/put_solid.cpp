@@ -69,13 +69,15 @@ void Solver::put_solid(const Solid& solid) {
                 solid.acceleration.z));
   for (const Body& other : bodies_)
     require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
-  std::vector<Patch> mirrors, walls;
+  std::vector<Patch> mirrors, walls, still;
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const Condition& here = conditions_[i];
     if (lets_slip(here)) mirrors.push_back(mesh_.patches[i]);
     if (fixes_velocity(here)) walls.push_back(mesh_.patches[i]);
+    if (const auto* wall = std::get_if<Wall>(&here); wall && wall->velocity == Vec3{})
+      still.push_back(mesh_.patches[i]);
   }
-  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls);
+  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls, still);
   Body& body = bodies_.back();
   body.t = state_.t;
   try {

@@ -310,7 +310,9 @@ Real Solver::friction() const {
 
 void Solver::hold_mean_velocity(State& state, Real dt) {
   const Profile::Call call(profile_, calls_.hold_mean_velocity);
-  if (forcing_) forcing_->hold(state.u, state.phi, physics_.rho, friction(), dt);
+  if (!forcing_) return;
+  const Real change = forcing_->hold(state.u, state.phi, physics_.rho, friction(), dt);
+  forcing_->add_pressure(state.p, change);
 }
 
 }  // namespace fsi

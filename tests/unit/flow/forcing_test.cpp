@@ -33,6 +33,32 @@ TEST(Forcing, HoldsTheMean) {
   EXPECT_NEAR(forcing.gradient, before + (rho / dt + 70) * 0.15, 1e-11);
 }
 
+// In a wavy channel a part of the uniform force is a gradient, whose pressure comes with it:
+// u_1 = axis - grad q_1.
+TEST(Forcing, GivesThePressureOfAChange) {
+  const Mesh mesh =
+      test::read_box({.n = {16, 8, 0}, .periodic = {"left", "right"}, .moved = [](const Vec3& x) {
+                        return Vec3{x.x, x.y * (1 + 0.2 * std::sin(6.283185307179586 * x.x)), 0};
+                      }});
+  const FaceWeights weights(mesh);
+  const auto conditions = resolve({{"top", Wall{}}, {"bottom", Wall{}}}, mesh);
+  Projection projection(mesh, weights, conditions, Method::direct, 2);
+  Forcing forcing(mesh, projection, {1, 0, 0}, 1);
+  CellField<Vec3> u(mesh), grad(mesh);
+  FaceField<Real> phi(mesh);
+  CellField<Real> p(mesh);
+  const Real change = forcing.hold(u, phi, 1, 0, 1);
+  forcing.add_pressure(p, change);
+  projection.set_gradient(grad, p, BoundaryField<Real>(mesh));
+  Real worst = 0, most = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    worst = std::max(worst, norm(u[c] - Vec3{change, 0, 0} + grad[c]));
+    most = std::max(most, norm(grad[c]));
+  }
+  EXPECT_GT(global_max(most), 0.1);
+  EXPECT_LT(global_max(worst), 1e-9);
+}
+
 TEST(Forcing, TheMeanIsThatOfTheVelocityOnAnyMesh) {
   const Vec3 u{1, 0.5, 0};
   for (const bool simplex : {false, true}) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/viscous.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/elastic_force.hpp"
 #include "libfsi/solid/surface_traction.hpp"
@@ -67,7 +68,8 @@ struct HalfSolid {
     law.apply(sum, source, {.T = T, .alpha = alpha, .alpha_f = &alpha_f, .normal = &normal},
               weights, stencil, band, grad);
     if (ratio == 1) return sum;
-    const FaceField<Real> mu(mesh, 1);
+    FaceField<Real> mu(mesh);
+    flow::mixture_viscosity(mu, alpha, 1, ratio, weights, mesh);
     const CellField<Vec3> n(mesh, {0, 1, 0});
     CellField<Real> height(mesh);
     for (Index c = 0; c < mesh.n_cells; ++c) height[c] = mesh.C[c].y - top;

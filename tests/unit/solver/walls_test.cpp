@@ -128,7 +128,7 @@ TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
     const Mesh mesh = test::read_box(
         {.n = {n, n, n}, .simplex = layer.simplex, .periodic = {"left", "right", "back", "front"}});
     CellField<Real> alpha(mesh);
-    BoundaryField<char> bonded(mesh);
+    std::vector<char> bonded(static_cast<std::size_t>(mesh.n_boundary()), 0);
     for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
       bonded[f - mesh.n_internal] = layer.bonded && mesh.Cf[f].y < 1e-9;
     solid::WallFilm film(mesh, {mesh.patch("bottom")}, bonded);
@@ -149,7 +149,7 @@ TEST(Walls, LeaveTheStrainToTheCellsFartherIn) {
 // for.
 TEST(Walls, FilmsBearTheVelocityAcrossThem) {
   const Mesh mesh = test::read_box({.n = {4, 4, 0}});
-  BoundaryField<char> bonded(mesh);
+  std::vector<char> bonded(static_cast<std::size_t>(mesh.n_boundary()), 0);
   const solid::WallFilm film(mesh, {mesh.patch("bottom")}, bonded);
   CellField<Real> alpha(mesh);
   FaceField<Real> alpha_f(mesh), mu(mesh);
@@ -244,6 +244,58 @@ TEST(Walls, ALayerBetweenThemStaysUniform) {
     const auto [spread, made] = disturbed_layer(simplex);
     EXPECT_LE(spread, 1e-5) << simplex;
     EXPECT_LE(made, 1e-3) << simplex;
+  }
+}
+
+/// A layer is bonded to a wall at rest below a fluid that a force 1 drives: elastic energy over the
+/// exact one, and mean velocity of the layer, at the end.
+std::array<Real, 2> loaded_layer(Index n, bool simplex, KinematicsKind kinematics, Real end) {
+  const Real length = 4.0 / static_cast<Real>(n);
+  const Mesh mesh = test::read_box({.n = {4, n, 0},
+                                    .length = {length, 1, 1},
+                                    .simplex = simplex,
+                                    .periodic = {"left", "right"}});
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = 0.2},
+      {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}, .body_force = [](const Vec3&, Real) {
+         return Vec3{1, 0, 0};
+       }});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.5, 200}), {0, 0.25, 0}),
+                    .G = 2,
+                    .mu = 0.2,
+                    .kinematics = kinematics});
+  while (solver.state().t < end) {
+    const Real dt = std::min({0.05, solver.advective_dt(0.5), solver.elastic_dt()});
+    EXPECT_GT(solver.advance(dt), 0) << solver.report().failure;
+    if (!solver.report().failure.empty()) break;
+  }
+  Sum moved, volume;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Real V = mesh.V[c] * solver.body()->alpha[c];
+    moved.add(V * solver.state().u[c].x), volume.add(V);
+  }
+  // shear (3/4 - y) / G, y from 0 to 1/2
+  const Real exact = (27.0 - 1) / 64 / 3 / (2 * 2) * length;
+  return {elastic_energy(*solver.body()) / exact, moved.total() / volume.total()};
+}
+
+// The map of a layer that is bonded to a wall at rest stays zero there. Without that nothing holds
+// the map at the wall, and psi, drawn to it, lets the layer slide.
+TEST(Walls, ALayerOnOneBearsALastingLoad) {
+  struct Scene {
+    Index n;
+    bool simplex;
+    KinematicsKind kinematics;
+  };
+  for (const auto& [n, simplex, kinematics] : {Scene{16, false, KinematicsKind::reference_map},
+                                               Scene{16, false, KinematicsKind::log_conformation},
+                                               Scene{12, true, KinematicsKind::log_conformation}}) {
+    const auto [energy, speed] = loaded_layer(n, simplex, kinematics, 30);
+    std::printf("layer on a wall, %s, %d: elastic energy over the exact one %.4f, speed %.1e\n",
+                simplex ? "triangles" : "quads", static_cast<int>(kinematics), energy, speed);
+    EXPECT_NEAR(energy, 1, 0.03);
+    EXPECT_LE(std::abs(speed), 1e-3);
   }
 }
 
