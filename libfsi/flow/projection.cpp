@@ -290,8 +290,8 @@ SolveResult Projection::project_cells(FaceField<Real>& phi, CellField<Real>& q,
   return total;
 }
 
-void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, const FluxTerms& terms,
-                  const FaceWeights& weights, const Mesh& mesh) {
+void flux_of_rest(FaceField<Real>& phi, const ForceOfFaces& of, const std::vector<char>& open_face,
+                  const FluxTerms& terms, const FaceWeights& weights, const Mesh& mesh) {
   for (Index f = 0; f < mesh.n_faces; ++f) {
     const Index P = mesh.owner[f], i = weights.place[f];
     const bool internal = f < mesh.n_internal;
@@ -299,9 +299,9 @@ void flux_of_rest(FaceField<Real>& phi, const std::vector<char>& open_face, cons
     if (!internal && open_face[f - mesh.n_internal] == 0) continue;
     const Index N = internal ? mesh.neighbour[f] : P;
     const Real lambda = internal ? weights.lambda[f] : 0;
-    const Vec3 mean = lambda * (*terms.force)[P] + (1 - lambda) * (*terms.force)[N];
+    const Vec3 mean = lambda * of.force[P] + (1 - lambda) * of.force[N];
     const Real rise = (internal ? terms.p[N] : terms.p_b[f - mesh.n_internal]) - terms.p[P];
-    Real flux = dot(mean, mesh.Sf[f]) + weights.g[f] * (terms.rhie_chow_source[f] - rise);
+    Real flux = dot(mean, mesh.Sf[f]) + weights.g[f] * (of.source[f] - rise);
     if (i >= 0) flux -= dot(terms.grad_p_f[i], weights.k[f]);
     phi[f] = terms.density->rho_0() / terms.density->of_face()[f] * flux;
   }

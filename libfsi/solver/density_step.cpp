@@ -20,35 +20,57 @@ void Solver::mix_density() {
   projection_.set_density(density);
 }
 
-// Solved until all faces are at rest: sum_f (rho_0 / rho_f) (forces - compact grad p) . S = 0
 void Solver::balance_weight(State& state) {
   const Profile::Call call(profile_, calls_.balance_weight);
   if (!heavy_) return;
   mesh_.halo.update(force_);
-  if (state.step == 0) {
-    constexpr int most = 60;
-    constexpr Real round_off = 1e-15;
-    flow::FluxTerms terms = flux_terms(0);
-    terms.force = &force_;
-    FaceField<Real> flux(mesh_);
-    BoundaryField<Real> q_b(mesh_);
-    Real first = 0;
-    for (int i = 0; i < most; ++i) {
-      flow::flux_of_rest(flux, momentum_.boundary().open, terms, weights_, mesh_);
-      projection_.project(flux, q_, grad_q_, q_b, 0);
-      Real largest = 0;
-      for (Index c = 0; c < mesh_.n_cells; ++c) {
-        state.p[c] += q_[c];
-        largest = std::max(largest, std::abs(q_[c]));
-      }
-      set_pressure_gradient(grad_p_, state);
-      largest = global_max(largest);
-      if (i == 0) first = largest;
-      if (largest <= round_off * first) break;
-    }
-  }
+  if (state.step == 0)
+    add_pressure_of_rest(state, force_, rhie_chow_source_);
+  else if (state.step == begun_)
+    add_pressure_of_new_weight(state);
   const Vec3 uniform = driving_gradient() * axis_;
   for (Index c = 0; c < mesh_.n_cells; ++c) heavy_->force[c] = force_[c] + uniform - grad_p_[c];
+}
+
+// The flow that is there has its own pressure, so what is new is balanced apart from it.
+void Solver::add_pressure_of_new_weight(State& state) {
+  CellField<Vec3> weight(mesh_);
+  FaceField<Real> source(mesh_);
+  for (Body& body : bodies_)
+    if (body.begun == state.step) add_weight(weight, source, body, projection_.stencil());
+  mesh_.halo.update(weight);
+  add_pressure_of_rest(state, weight, source);
+}
+
+// p = p_0 + p', solved until the force leaves all faces at rest beside p', the change of p:
+//   sum_f (rho_0 / rho_f) (force - compact grad p') . S = 0
+void Solver::add_pressure_of_rest(State& state, const CellField<Vec3>& force,
+                                  const FaceField<Real>& source) {
+  constexpr int most = 60;
+  constexpr Real round_off = 1e-15;
+  const std::vector<char>& open = momentum_.boundary().open;
+  FaceField<Real> flux(mesh_), of_flow(mesh_);
+  if (state.step > 0) {
+    const CellField<Vec3> none(mesh_);
+    const FaceField<Real> nothing(mesh_);
+    flow::flux_of_rest(of_flow, {none, nothing}, open, flux_terms(0), weights_, mesh_);
+  }
+  BoundaryField<Real> q_b(mesh_);
+  Real first = 0;
+  for (int i = 0; i < most; ++i) {
+    flow::flux_of_rest(flux, {force, source}, open, flux_terms(0), weights_, mesh_);
+    for (Index f = 0; f < mesh_.n_faces; ++f) flux[f] -= of_flow[f];
+    projection_.project(flux, q_, grad_q_, q_b, 0);
+    Real largest = 0;
+    for (Index c = 0; c < mesh_.n_cells; ++c) {
+      state.p[c] += q_[c];
+      largest = std::max(largest, std::abs(q_[c]));
+    }
+    set_pressure_gradient(grad_p_, state);
+    largest = global_max(largest);
+    if (i == 0) first = largest;
+    if (largest <= round_off * first) break;
+  }
 }
 
 void Solver::renew_responses() {

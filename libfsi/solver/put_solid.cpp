@@ -36,6 +36,11 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
               " is longer than a period of the mesh and overlaps its own image: make it smaller, "
               "or of several periods for one without ends" +
               sizes);
+  require(!body.filled.touches_itself,
+          which +
+              " touches its own image across a period of the mesh: make it smaller, or of several "
+              "periods for one without ends" +
+              sizes);
   for (const Body& other : others) {
     if (&other == &body || solid.from_checkpoint) continue;
     Real most = 0;
@@ -80,6 +85,7 @@ void Solver::put_solid(const Solid& solid) {
   bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls, still);
   Body& body = bodies_.back();
   body.t = state_.t;
+  body.begun = state_.step;
   try {
     require_place(body, solid, bodies_, mesh_);
   } catch (const Error&) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -19,7 +21,6 @@ void list_opening(io::Snapshot& snapshot, flow::Openings::One& opening) {
 void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("t", &state_.t);
   snapshot.add("step", &state_.step);
-  snapshot.add("step_of_put_solid", &begun_);
   snapshot.add("u", state_.u);
   snapshot.add("p", state_.p);
   snapshot.add("phi", state_.phi);
@@ -41,6 +42,8 @@ void Solver::list(io::Snapshot& snapshot) {
 
 void Solver::resume() {
   for (Body& body : bodies_) body.resume();
+  begun_ = 0;
+  for (const Body& body : bodies_) begun_ = std::max(begun_, body.begun);
   mix_density();
 }
 

@@ -232,10 +232,14 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
                     height, flow.mu},
                    flow.pressure, body.band);
   }
-  if (body.body_force)
-    body.body_force->apply(force, rhie_chow_source,
-                           body.alpha_line ? *body.alpha_line : body.alpha_f, flow.pressure,
-                           body.band);
+  add_weight(force, rhie_chow_source, body, flow.pressure);
+}
+
+void add_weight(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
+                PressureStencil& pressure) {
+  if (!body.body_force) return;
+  body.body_force->apply(force, rhie_chow_source, body.alpha_line ? *body.alpha_line : body.alpha_f,
+                         pressure, body.band);
 }
 
 void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,

@@ -58,6 +58,10 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
                        const CellField<Tensor>& L, const FlowAround& flow);
 
+/// Collective. Its last part: the weight and body force of a body that has one.
+void add_weight(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
+                PressureStencil& pressure);
+
 /// (12) Collective. Adds the two terms that keep a step of dt stable, if elasticity is implicit in
 /// part, and dt G alpha_f lambda_B to the stiffness. kappa and stiffness: cleared by
 /// Body::semi_implicit_elasticity before. Sets L on the band if the flow has none.

@@ -207,6 +207,10 @@ class Solver {
                          Real dt);
   void add_body_force(CellField<Vec3>& force, Real t);
   void balance_weight(State& state);
+  /// Adds to p what balances that force, or the weight of the solids just put in.
+  void add_pressure_of_rest(State& state, const CellField<Vec3>& force,
+                            const FaceField<Real>& source);
+  void add_pressure_of_new_weight(State& state);
   void set_flux_excess(const State& state);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);

@@ -20,6 +20,7 @@ struct Images {
   std::vector<Vec3> all;
   std::vector<Vec3> near;
   bool overlap = false;  // whether a point lay in two images, not as deep in both
+  bool touch = false;    // whether the surfaces of two images near a point are one
   Real rounding = 0;     // up to which it is as deep: an endless shape is its own image
 
   Images(const Mesh& mesh, const Shape& of) : shape(of) {
@@ -39,7 +40,11 @@ struct Images {
     near.clear();
     for (const Vec3& t : all) {
       const Real distance = shape(x + t);
-      if (distance < 0 && least < 0 && std::abs(distance - least) > rounding) overlap = true;
+      if (std::abs(distance - least) > rounding) {
+        if (distance < 0 && least < 0) overlap = true;
+        const bool close = std::max(std::abs(distance), std::abs(least)) <= radius;
+        if (close && distance + least <= rounding) touch = true;
+      }
       least = std::min(least, distance);
       if (std::abs(distance) <= radius) near.push_back(t);
     }
@@ -273,8 +278,13 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
   const Real error = std::abs(totals[1]) + std::sqrt(totals[2]) + totals[3];
   const auto at = [&](const Vec3& x) { return distance.select(x, 0); };
   const bool overlap = !all_of_ranks(!distance.overlap);
-  return {totals[0], error, clearance(mesh, distance, mirrors), cutting_planes(at, mesh, mirrors),
-          overlap};
+  const bool touch = !all_of_ranks(!distance.touch);
+  return {.volume = totals[0],
+          .estimated_error = error,
+          .clearance = clearance(mesh, distance, mirrors),
+          .cut_by = cutting_planes(at, mesh, mirrors),
+          .overlaps_itself = overlap,
+          .touches_itself = touch};
 }
 
 }  // namespace fsi::vof

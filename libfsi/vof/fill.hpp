@@ -36,6 +36,8 @@ struct Filled {
   /// Whether the centre of a cell lies in the solid and in its image across a period, in one deeper
   /// than in the other. An endless shape is its own image.
   bool overlaps_itself = false;
+  /// Whether the solid touches its image across a period, as one that is exactly a period long.
+  bool touches_itself = false;
 };
 
 /// Collective. alpha = part of each cell inside the shape (negative distance), in [0, 1], exactly 0

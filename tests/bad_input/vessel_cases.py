@@ -57,6 +57,9 @@ def cases(Case):
              "-solid_arc_length", "-solid_path"),
         case("solid longer than a period", yaml("solid: {shape: ellipsoid, center: [0.5, 0.5, 0], semi_axes: "
              "[0.7, 0.2, 0.2]}\nmesh_periodic: [left, right]", left=None, right=None), "overlaps its own image"),
+        case("solid as long as a period", yaml("solid: {shape: cylinder, center: [0.5, 0.5, 0], axis: [1, 0, 0], "
+             "radius: 0.2, height: 1}\nmesh_periodic: [left, right]", left=None, right=None),
+             "touches its own image", "several periods"),
         case("path and centre", yaml("solid: {shape: sphere, path: [left, right], center: [0.5, 0.5, 0]}"),
              "-solid_path", "-solid_center", "exclude each other"),
         case("path and centre of one of several", yaml("solids: {one: {shape: sphere, path: [left, right], "

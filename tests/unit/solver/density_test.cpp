@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -37,6 +38,7 @@ struct Column {
   KinematicsKind kinematics = KinematicsKind::log_conformation;
   Real above = 0;  ///< ratio of a second layer that lies on the first; 0: there is none
   Real gap = 0;    ///< of fluid between them
+  int later = 0;   ///< steps after which the first layer is put in, and twice that the second
 };
 
 Speeds still(const Column& column) {
@@ -50,12 +52,17 @@ Speeds still(const Column& column) {
   Solver solver(mesh, {.rho = 1, .mu_f = 0.01, .gravity = {0, -1, 0}},
                 {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}});
   solver.start([](const Vec3&) { return Vec3{}; });
+  const auto wait = [&] {
+    for (int i = 0; i < column.later; ++i) solver.step(1e-2);
+  };
+  wait();
   solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.4, 200}), {0, column.middle, 0}),
                     .G = 1,
                     .mu = 0.01,
                     .name = "layer",
                     .kinematics = column.kinematics,
                     .rho = column.ratio});
+  wait();
   const Real second = column.middle + 0.2 + column.gap + 0.1;
   if (column.above > 0)
     solver.put_solid({.shape = shapes::translate(shapes::box({200, 0.2, 200}), {0, second, 0}),
@@ -111,6 +118,50 @@ TEST(Density, LeavesTwoLayersAtRest) {
     EXPECT_LE(s.cell, 1e-10);
     EXPECT_LE(s.face, 1e-10);
   }
+}
+
+/// Solids that are put in later, together or one after the other.
+TEST(Density, LeavesLayersAtRestThatArePutInLater) {
+  for (const Column& column :
+       {Column{.mesh = "quads", .later = 5},
+        Column{.mesh = "triangles", .simplex = true, .later = 5},
+        Column{.mesh = "quads", .middle = 0.32, .above = 0.5, .gap = 0.11, .later = 5},
+        Column{.mesh = "triangles", .simplex = true, .middle = 0.32, .above = 0.5, .later = 5}}) {
+    const Speeds s = still(column);
+    std::printf("layers after %d steps, %s, ratios %g and %g: cells %.2e, faces %.2e\n",
+                column.later, column.mesh, column.ratio, column.above, s.cell, s.face);
+    EXPECT_LE(s.cell, 1e-10);
+    EXPECT_LE(s.face, 1e-10);
+  }
+}
+
+/// A heavy disc that is put into fluid at rest falls as if it had been there from the first step.
+TEST(Density, LetsADiscFallThatIsPutInLater) {
+  const Mesh mesh = test::read_box({.n = {24, 24, 0}, .length = {1, 1, 1}});
+  const auto fallen = [&](int later) {
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.01, .gravity = {0, -1, 0}},
+        {.conditions = {{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    for (int i = 0; i < later; ++i) solver.step(5e-3);
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.6, 0}),
+                      .G = 1,
+                      .mu = 0.01,
+                      .rho = 3});
+    std::array<Real, 2> speed{};
+    for (int i = 1; i <= 20; ++i) {
+      solver.step(5e-3);
+      if (i == 1) speed[0] = speeds(solver).cell;
+    }
+    speed[1] = speeds(solver).cell;
+    std::printf("disc put in after %d steps: %.6f in its first, %.6f in its 20th\n", later,
+                speed[0], speed[1]);
+    return speed;
+  };
+  // The first steps of a run are those of backward Euler.
+  const std::array<Real, 2> at_once = fallen(0), late = fallen(4);
+  EXPECT_NEAR(late[0], at_once[0], 0.03 * at_once[0]);
+  EXPECT_NEAR(late[1], at_once[1], 4e-4 * at_once[1]);
 }
 
 /// A layer across a column without ends falls with all of the fluid: f of the height, ratio r,
