@@ -22,7 +22,7 @@ RunStatus body() {
                            {"bottom", Wall{shear(centre(mesh, "bottom"))}}};
   for (const Patch& patch : mesh.patches)
     if (patch.name == "back" || patch.name == "front") setup.flow.conditions[patch.name] = Slip{};
-  const Real length = setup.solids.empty() ? 1 : setup.solids[0].thickness / 2;
+  const Real length = setup.solids.empty() ? 1 : thickness_in(mesh.dim, setup.solids[0]) / 2;
   describe(setup, mesh, length, rate * length);
 
   // 3 solver and initial state

@@ -322,19 +322,20 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
     const std::string name =
         s.solid.name.empty() ? s.shape_name : s.solid.name + " (" + s.shape_name + ")";
     const Real rho = s.solid.rho > 0 ? s.solid.rho : p.rho;
+    const Real thickness = thickness_in(mesh.dim, s);
     std::printf(
         "%s: density ratio %.4g, viscosity ratio %.4g, %.1f cells (edges) through its thickness of "
         "%g",
-        name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, s.thickness / edges[i], s.thickness);
+        name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, thickness / edges[i], thickness);
     if (velocity != 0)
       std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
     std::printf("\n");
-    // With fewer no cell has solid on all sides. In a plane an ellipsoid has no third axis.
+    // With fewer no cell has solid on all sides.
     constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
-    const Real through = s.thickness / edges[i];
-    if (through < few && (mesh.dim == 3 || s.shape_name != "ellipsoid"))
+    const Real through = thickness / edges[i];
+    if (through < few)
       std::fprintf(stderr,
                    "fsi: warning: %s: %.2g cells through its thickness are %s; take 4 or more, 6 "
                    "are better (doc/howto/vessel.md)\n",

@@ -38,8 +38,8 @@ struct SolidSetup {
   shapes::Shape about_origin;  ///< the same shape, its axis of revolution along x
   Real angle = 0;              ///< between that axis and x when placed, in degrees
   std::string shape_name;      ///< as the option has it
-  Real thickness = 0;          ///< the least of its dimensions
-  Real centre_z = 0;           ///< not used in a 2-D run
+  Real thickness = 0;          ///< the least of its dimensions, as a solid in three dimensions
+  Vec3 centre{};               ///< its z is not used in a 2-D run
   bool on_path = false;        ///< whether its place still has to be found, on the mesh
   std::string options;         ///< prefix of its options: "solid_" or "solids_NAME_"
 };
@@ -65,6 +65,10 @@ std::vector<std::string> solids_without_shape(const Options& options);
 /// A solid's shape in a mesh of dimension 2 or 3: in 2-D the section through its centre, for any z
 /// of the centre.
 shapes::Shape shape_in(int dim, const SolidSetup& s);
+
+/// The least of its dimensions in a run of that many: in a plane the least chord through the
+/// centre.
+Real thickness_in(int dim, const SolidSetup& s);
 /// Collective. Puts all of them into the fluid, which begins as in Case::flow_from if there is one
 /// and the run is no restart. Errors: those of Solver::put_solid and of `start_from_other_run`.
 void put_solids(Solver& solver, const Case& setup);

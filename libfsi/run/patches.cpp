@@ -303,7 +303,7 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
     const auto [at, along] = line.at(s);
     const shapes::Shape aligned = shapes::align(solid.about_origin, along);
     const Real turn = solid.angle * std::numbers::pi / 180;
-    solid.centre_z = at.z;
+    solid.centre = at;
     solid.solid.shape = shapes::translate(shapes::rotate(aligned, {0, 0, 1}, turn), at);
     if (rank() != 0) continue;
     const std::string name = solid.solid.name.empty() ? "solid" : "solid " + solid.solid.name;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <utility>
@@ -139,7 +140,7 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
               : options.vec3(
                     of + "center", unset,
                     {.help = "centre of the shape; its z is left out in 2-D", .unit = "length"});
-  solid.centre_z = centre.z;
+  solid.centre = centre;
   if (options.given(of + "axis") || options.help()) {
     const Vec3 axis = options.vec3(
         of + "axis", {1, 0, 0}, {.help = "axis of revolution, in place of the angle", .unit = ""});
@@ -233,7 +234,27 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
 }
 
 shapes::Shape shape_in(int dim, const SolidSetup& s) {
-  return dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre_z});
+  return dim == 3 ? s.solid.shape : shapes::translate(s.solid.shape, {0, 0, -s.centre.z});
+}
+
+Real thickness_in(int dim, const SolidSetup& s) {
+  const shapes::Shape shape = shape_in(dim, s);
+  const Vec3 centre{s.centre.x, s.centre.y, 0};
+  if (dim == 3 || !(shape(centre) < 0)) return s.thickness;  // a torus is open in the middle
+  constexpr int directions = 180, halvings = 40;
+  Real least = shapes::infinity;
+  for (int i = 0; i < directions; ++i) {
+    const Real angle = std::numbers::pi * i / directions;
+    const Vec3 along{std::cos(angle), std::sin(angle), 0};
+    Real inside = 0, outside = s.thickness;
+    while (shape(centre + outside * along) < 0) inside = outside, outside *= 2;
+    for (int k = 0; k < halvings; ++k) {
+      const Real middle = (inside + outside) / 2;
+      (shape(centre + middle * along) < 0 ? inside : outside) = middle;
+    }
+    least = std::min(least, 2 * inside);
+  }
+  return least;
 }
 
 void put_solids(Solver& solver, const Case& setup) {

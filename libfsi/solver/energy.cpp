@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 
@@ -111,6 +112,9 @@ void EnergyBalance::set_powers_and_stored(const Solver& solver) {
       body.law.add_energy(elastic, body.G, body.B, body.alpha, solver.mesh());
   std::array<Real, 5> totals{};
   Sum::totals(totals, sums);
+  if (!std::isfinite(totals[2]))
+    throw Error(ErrorKind::numerics,
+                print("the body force is not finite at t = %.8g", solver.state().t));
   power_of_flow_ = totals[0], power_of_step_ = totals[1];
   power_of_step_ +=
       solver.driving_gradient() * (through_old_ + through_) / 2 * solver.mesh().total_volume;

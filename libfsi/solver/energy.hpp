@@ -40,7 +40,8 @@ class EnergyBalance {
   /// Collective. Begins with the solver's state.
   explicit EnergyBalance(const Solver& solver);
 
-  /// Collective. After a step of length dt.
+  /// Collective. After a step of length dt. Errors: Error{numerics} where the body force is not
+  /// finite at the end of the step; nothing is added.
   void add(const Solver& solver, Real dt);
 
   /// Collective. Goes on from the solver's state, once that and the list were read.

@@ -20,7 +20,7 @@ TEST(PutSolids, APlaneCutsASolidThroughItsCentreWhateverItsHeight) {
     SolidSetup disc;
     disc.solid.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, z});
     disc.shape_name = "sphere";
-    disc.centre_z = z;
+    disc.centre = {0.5, 0.5, z};
     Case setup;
     setup.solids = {disc};
     Solver solver(mesh, {}, {});
@@ -28,6 +28,24 @@ TEST(PutSolids, APlaneCutsASolidThroughItsCentreWhateverItsHeight) {
     put_solids(solver, setup);
     EXPECT_NEAR(solver.body()->filled.volume, 0.04 * std::numbers::pi, 1e-3) << z;
   }
+}
+
+// In a plane the height of a disk about z and an ellipsoid's axis along z do not count.
+TEST(Thickness, IsThatOfTheSectionInAPlane) {
+  const auto thickness = [](int dim, const shapes::Shape& shape, Real least) {
+    const Vec3 centre{0.4, 0.6, 0.3};
+    SolidSetup solid;
+    solid.solid.shape = shapes::translate(shape, centre);
+    solid.centre = centre;
+    solid.thickness = least;
+    return thickness_in(dim, solid);
+  };
+  const shapes::Shape disk = shapes::disk(0.2, 0.1), pea = shapes::ellipsoid({0.3, 0.2, 0.05});
+  EXPECT_EQ(thickness(3, disk, 0.1), 0.1);
+  EXPECT_NEAR(thickness(2, disk, 0.1), 0.1, 1e-9);
+  EXPECT_NEAR(thickness(2, shapes::align(disk, {0, 0, 1}), 0.1), 0.4, 1e-9);
+  EXPECT_NEAR(thickness(2, pea, 0.1), 0.4, 1e-9);
+  EXPECT_EQ(thickness(2, shapes::torus(0.3, 0.1), 0.2), 0.2);
 }
 
 // The sizes that nobody gave are told where a solid does not fit, and where it is refused for

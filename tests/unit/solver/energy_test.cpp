@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/energy.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -57,6 +58,29 @@ TEST(EnergyBalance, TheWorkOfAForceIsStored) {
 
 // The pressure bears a uniform force in a closed box. What a step leaves of it in cells at walls is
 // no energy that came from nothing, and the force does no work.
+// The steps take the force at their middles; the balance takes it at their ends, too.
+TEST(EnergyBalance, NamesAForceThatIsNotFinite) {
+  const Mesh mesh =
+      test::read_box({.n = {6, 6, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  const auto force = [](const Vec3&, Real t) {
+    return Vec3{t > 0.19 && t < 0.21 ? std::nan("") : 1, 0, 0};
+  };
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1}, {.body_force = force});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  EnergyBalance energy(solver);
+  solver.step(0.1);
+  energy.add(solver, 0.1);
+  solver.step(0.1);
+  try {
+    energy.add(solver, 0.1);
+    FAIL() << "a force that is not finite went unseen";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::numerics);
+    EXPECT_STREQ(error.what(), "the body force is not finite at t = 0.2");
+  }
+  EXPECT_TRUE(std::isfinite(energy.work()));
+}
+
 TEST(EnergyBalance, AForceThatThePressureBearsDoesNoWork) {
   constexpr Real frequency = 2 * std::numbers::pi, dt = 0.04;
   const auto shaken = [](const Vec3&, Real t) { return Vec3{std::cos(frequency * t), 0, 0}; };
