@@ -51,11 +51,14 @@ void Density::finish() {
   mesh_.halo.update(inertia_);
 }
 
-Real flux_of_force(const Density& density, const CellField<Vec3>& N, const FaceWeights& weights,
+Real flux_of_force(const Density& density, const CellField<Vec3>& a, const FaceWeights& weights,
                    const Mesh& mesh, Index f) {
   const Index P = mesh.owner[f];
   const Real rho = density.of_face()[f];
-  const auto difference = [&](Index c) { return N[c] - rho * density.divided(N[c], c); };
+  const auto difference = [&](Index c) -> Vec3 {
+    const Vec3& D = density.inertia()[c];
+    return {(D.x - rho) * a[c].x, (D.y - rho) * a[c].y, (D.z - rho) * a[c].z};
+  };
   if (f >= mesh.n_internal) return dot(difference(P), mesh.Sf[f]);
   const Real lambda = weights.lambda[f];
   return dot(lambda * difference(P) + (1 - lambda) * difference(mesh.neighbour[f]), mesh.Sf[f]);

@@ -56,10 +56,13 @@ class Density {
   CellField<Vec3> inertia_;
 };
 
-/// The flux that a force F (per volume, owned and halo) makes by the inertia of the face, less that
-/// by the inertia of the cells, times rho_f:
-///   Phi(F)_f - rho_f Phi(F / rhohat)_f,   Phi with the weights of `predict_flux`. N: F.
-Real flux_of_force(const Density& density, const CellField<Vec3>& N, const FaceWeights& weights,
+/// The flux that all forces make by the inertia of the face, less that by the inertia of the cells,
+/// times rho_f:
+///   Phi(F)_f - rho_f Phi(F / rhohat)_f,   Phi with the weights of `predict_flux`.
+/// a: the acceleration F / rhohat that they give the cells, owned and halo. It holds the viscous
+/// force too. In a viscous solid that balances the others, and a flux of the others alone is false
+/// by rho / rho_s - 1 times all of them.
+Real flux_of_force(const Density& density, const CellField<Vec3>& a, const FaceWeights& weights,
                    const Mesh& mesh, Index f);
 
 }  // namespace fsi::flow

@@ -229,6 +229,21 @@ void Momentum::add_sources(const MomentumTerms& terms) {
   }
 }
 
+// a = (u* - u^n)/dt + AB3(conv)/V, of which rhs_ has the second part
+void Momentum::set_convective(CellField<Vec3>& a, const CellField<Vec3>& rho) const {
+  for (Index c = 0; c < mesh_.n_owned; ++c) {
+    const Vec3 part = (-1 / mesh_.V[c]) * rhs_[c];
+    a[c] = {part.x / rho[c].x, part.y / rho[c].y, part.z / rho[c].z};
+  }
+}
+
+void Momentum::add_change(CellField<Vec3>& a, Real dt) const {
+  const Index dim = mesh_.dim;
+  for (Index c = 0; c < mesh_.n_owned; ++c)
+    for (Index i = 0; i < dim; ++i) a[c][static_cast<int>(i)] += w_[c * dim + i] / dt;
+  mesh_.halo.update(a);
+}
+
 int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
   const std::array now{steps_taken < damped_steps ? 1.0 : theta_at(dt), dt};
   if (assembled_[0] != now[0]) set_theta(now[0]);
@@ -238,6 +253,7 @@ int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
 
   rhs_.fill({});
   add_convection(u, terms, dt);
+  if (terms.acceleration != nullptr) set_convective(*terms.acceleration, *terms.rho);
   add_rest(u, terms, dt);
   add_compact(u, terms, dt);
   add_sources(terms);
@@ -250,6 +266,7 @@ int Momentum::predict(CellField<Vec3>& u, const MomentumTerms& terms, Real dt) {
       w_[i] = b_[i] / diagonal[i];
     }
   const int iterations = system_.solve(w_, b_).iterations;
+  if (terms.acceleration != nullptr) add_change(*terms.acceleration, dt);
   for (Index c = 0; c < mesh_.n_cells; ++c)
     for (Index i = 0; i < dim; ++i) u[c][static_cast<int>(i)] += w_[c * dim + i];
   dt_before = dt_old;

@@ -45,6 +45,9 @@ struct MomentumTerms {
   const CellField<Vec3>& force;        ///< elastic force per volume
   /// Density of the cells for each component, owned and halo; none: that of the fluid everywhere.
   const CellField<Vec3>* rho = nullptr;
+  /// Where there is such a density: set to the acceleration by all forces, (u* - u^n)/dt less that
+  /// by convection; owned and halo.
+  CellField<Vec3>* acceleration = nullptr;
   Vec3 body{};  ///< uniform force per volume (mean-velocity forcing)
   /// Courant number beyond which kappa takes the convection of triangles and tetrahedra (Courant).
   Real explicit_courant = std::numeric_limits<Real>::max();
@@ -138,6 +141,10 @@ class Momentum {
   void add_rest(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_compact(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
   void add_sources(const MomentumTerms& terms);
+  /// Sets in a what the acceleration by forces is more than the change of u: that of convection.
+  void set_convective(CellField<Vec3>& a, const CellField<Vec3>& rho) const;
+  /// Collective. Adds the change of u per time.
+  void add_change(CellField<Vec3>& a, Real dt) const;
   /// The matrix of rho V / dt w - sum_f a_f g (w_N - w_P), a = theta mu + kappa.
   void assemble(const MomentumTerms& terms, Real dt);
   /// Share of the viscous rest that is extrapolated: the whole below l = 2, beyond 2 / l.

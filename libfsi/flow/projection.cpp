@@ -78,7 +78,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
                  weights.g[f] * (terms.rhie_chow_source[f] - (terms.p[N] - terms.p[P]));
     if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
     if (terms.density != nullptr)
-      brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
+      brace += flux_of_force(*terms.density, *terms.acceleration, weights, mesh, f);
     const Real speed = norm(u_f);
     const Real d_f = damped(terms, mesh, f, damping_time(terms, mesh, f, speed));
     phi[f] = dot(u_f, mesh.Sf[f]) + d_f * brace;
@@ -92,7 +92,7 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     Real brace = dot(terms.grad_p[P], mesh.Sf[f]) - weights.g[f] * (terms.p_b[b] - terms.p[P]);
     if (i >= 0) brace -= dot(terms.grad_p_f[i], weights.k[f]);
     if (terms.density != nullptr)
-      brace += flux_of_force(*terms.density, *terms.force, weights, mesh, f);
+      brace += flux_of_force(*terms.density, *terms.acceleration, weights, mesh, f);
     const Real d_f = damped(terms, mesh, f, terms.dt);
     phi[f] += d_f * brace;
     if (const Real w_f = held(terms, mesh, f, d_f, norm(u_b[b])); w_f > 0)

@@ -30,9 +30,9 @@ struct FluxTerms {
   const FaceField<Real>& kappa;  ///< implicit in addition to theta mu; 0 away from the solid
   /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
-  const Density* density = nullptr;        ///< null: rho everywhere
-  const CellField<Vec3>* force = nullptr;  ///< of all cells; read with a density only
-  Real stress = 0;                         ///< scale of the elastic stress; 0 without one
+  const Density* density = nullptr;               ///< null: rho everywhere
+  const CellField<Vec3>* acceleration = nullptr;  ///< of cells by all forces; read with a density
+  Real stress = 0;                                ///< scale of the elastic stress; 0 without one
   /// dt G alpha_f lambda_B if the flux strains a solid; null: it does not.
   const FaceField<Real>* stiffness = nullptr;
   const FaceField<Real>* excess = nullptr;  ///< e_f of u^n; null: nothing is held

@@ -17,7 +17,7 @@
 namespace fsi::io {
 namespace {
 
-constexpr std::int64_t format = 2;
+constexpr std::int64_t format = 3;
 
 /// The text behind the HDF5 file: its length and check. HDF5 does not read it.
 constexpr std::size_t trailer_size = 96;
@@ -106,7 +106,7 @@ std::string read_scalars(const Hdf5File& file, const Snapshot& snapshot) {
   for (const auto& [name, scalar] : snapshot.scalars()) {
     const bool good = std::visit(
         [&, &key = name](auto* value) { return file.attribute("/scalars", key, *value); }, scalar);
-    if (!good) return name;
+    if (!good && !snapshot.optional(name)) return name;
   }
   return "";
 }

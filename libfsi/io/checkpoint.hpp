@@ -2,6 +2,7 @@
 // Checkpoints: all that the next step depends on, readable on any number of ranks.
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -41,6 +42,10 @@ class Snapshot {
   }
   /// Adds a number or word.
   void add(const std::string& name, Scalar scalar) { scalars_.emplace_back(name, scalar); }
+  /// The same for one that a checkpoint may lack: it then stays as it is.
+  void add_optional(const std::string& name, Scalar scalar) {
+    scalars_.emplace_back(name, scalar), optional_.insert(name);
+  }
 
   /// As it was made with.
   const std::string& identity() const { return identity_; }
@@ -48,11 +53,14 @@ class Snapshot {
   const std::vector<Values>& fields() const { return fields_; }
   /// Numbers and words, in the order added.
   const std::vector<std::pair<std::string, Scalar>>& scalars() const { return scalars_; }
+  /// Whether a checkpoint may lack the number or word of that name.
+  bool optional(const std::string& name) const { return optional_.contains(name); }
 
  private:
   std::string identity_;
   std::vector<Values> fields_;
   std::vector<std::pair<std::string, Scalar>> scalars_;
+  std::set<std::string> optional_;
 };
 
 /// Collective. How much of a cell the solids fill in the newest sound checkpoint of a directory,

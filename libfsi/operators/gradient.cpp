@@ -1,5 +1,6 @@
 #include "libfsi/operators/gradient.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libfsi/operators/stencil.hpp"
@@ -29,6 +30,21 @@ void gradient_of(CellField<Grad>& grad, const CellField<T>& q, const BoundaryFie
   mesh.halo.update(grad);
 }
 
+/// The boundary faces of cell c without a value that have another such face across the cell. Along
+/// their normals the cell has no neighbour, and the field has no gradient there.
+std::vector<Index> opposite_faces(const std::vector<char>& given, const Mesh& mesh, Index c) {
+  constexpr Real facing = -0.7;  // cosine
+  std::vector<Index> faces, opposite;
+  for (const Index f : mesh.cell_faces[c])
+    if (f >= mesh.n_internal && given[f - mesh.n_internal] == 0) faces.push_back(f);
+  for (const Index f : faces)
+    if (std::ranges::any_of(faces, [&](Index g) {
+          return dot(mesh.Sf[f], mesh.Sf[g]) < facing * norm(mesh.Sf[f]) * norm(mesh.Sf[g]);
+        }))
+      opposite.push_back(f);
+  return opposite;
+}
+
 /// Sets `closed` of cells with boundary faces without a value.
 void set_closed(GradientStencil& stencil, const Mesh& mesh) {
   constexpr Tensor unit{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -42,7 +58,14 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
     }
     stencil.closed[at[P]] += (-1 / mesh.V[P]) * outer(mesh.Sf[f], mesh.d[f]);
   }
-  for (Tensor& M : stencil.closed) M = std::abs(det(M)) < no_inverse ? unit : inverse(M);
+  for (std::size_t i = 0; i < stencil.closed.size(); ++i) {
+    const Index c = stencil.closed_cells[i];
+    Tensor& M = stencil.closed[i];
+    if (std::abs(det(M)) < no_inverse)
+      for (const Index f : opposite_faces(stencil.given, mesh, c))
+        M += (1 / mesh.V[c]) * outer(mesh.Sf[f], mesh.d[f]);
+    M = std::abs(det(M)) < no_inverse ? unit : inverse(M);
+  }
 }
 
 }  // namespace
@@ -79,6 +102,9 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
     }
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (mesh.dim == 2) M[c].zz = 1;
+    if (std::abs(det(M[c])) < no_inverse)
+      for (const Index f : opposite_faces(given, mesh, c))
+        M[c] += (0.5 / norm2(mesh.Sf[f])) * outer(mesh.Sf[f], mesh.Sf[f]);
     // A corner cell has too few neighbours for a linear fit when det M vanishes (1 on a good cell).
     if (std::abs(det(M[c])) < no_inverse) {
       unfit.push_back(c);

@@ -29,7 +29,8 @@ struct GradientStencil {
   std::vector<char> given;      ///< [n_boundary] 1 on patches with a value
   std::vector<Index> unfit;     ///< owned cells with too few neighbours for a linear fit
   /// Owned cells that are not triangles or tetrahedra and have faces without a value. For each of
-  /// them the inverse of I - (1/V) sum S (x) d over these faces, or I where it is singular. The
+  /// them the inverse of I - (1/V) sum S (x) d over these faces. Where that is singular, faces with
+  /// another one across the cell are left out, and I is taken where that does not help. The
   /// gradient of a pressure needs it.
   std::vector<Index> closed_cells;
   std::vector<Tensor> closed;  ///< as above

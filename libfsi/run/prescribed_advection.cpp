@@ -27,9 +27,9 @@ PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
       advect_scratch_(mesh) {
   const vof::Filled filled = vof::fill(alpha_, mesh, shape);
   require(filled.volume > 0, "the solid is empty: its shape lies outside the mesh");
-  require(filled.clearance > 0, "the solid sticks out of the mesh by " +
+  require(filled.clearance > 0, "the solid sticks out of the mesh, whose boundary reaches " +
                                     print("%.4g", -filled.clearance) +
-                                    ": move it or make it smaller");
+                                    " deep into it: move it or make it smaller");
   start_.assign(alpha_);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = motion_.u(mesh.C[c]);
   vof::set_flux(phi_1_, motion_, mesh);

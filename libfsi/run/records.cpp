@@ -265,7 +265,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   soundness_ = {.eigenvalue_min = h.eigenvalue_min,
                 .pieces = pieces.count(body.alpha, piece * volume_0_),
                 .elastic_energy = elastic_energy(body, std::move(B)),
-                .shape_energy = shape_energy(body)};
+                .shape_energy = shape_energy(body),
+                .bond_kept = body.bond_kept()};
   std::vector<Entry> row{{"t", solver.state().t}};
   add(row, {"x", "y", "z"}, m.centroid + ahead * m.velocity);
   add(row, {"ux", "uy", "uz"}, m.velocity);

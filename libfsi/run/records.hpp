@@ -46,6 +46,7 @@ struct Soundness {
   int pieces = 1;           ///< of a hundredth of its volume or more
   Real elastic_energy = 0;  ///< that of the stress
   Real shape_energy = 0;    ///< that of the strain that the map gives
+  Real bond_kept = 1;       ///< part of the faces of its bond that it still covers
 };
 
 /// Makes the rows of a solid. Its data from earlier rows are part of a checkpoint.

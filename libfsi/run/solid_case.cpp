@@ -265,11 +265,22 @@ void put_solids(Solver& solver, const Case& setup) {
     solver.put_solid(solid);
     const Body& body = solver.bodies().back();
     if (rank() != 0) continue;
+    const std::string name = body.name.empty() ? s.shape_name : body.name;
     if (body.bonded_faces > 0)
       std::printf(
           "%s: touches walls at the start and is bonded to %lld of their faces for the whole run\n",
-          (body.name.empty() ? s.shape_name : body.name).c_str(),
-          static_cast<long long>(body.bonded_faces));
+          name.c_str(), static_cast<long long>(body.bonded_faces));
+    if (body.bonded_faces > 0 && body.map() == nullptr)
+      std::fprintf(stderr,
+                   "fsi: warning: %s: without the memory or a map nothing keeps the place of a "
+                   "bonded solid, and under a lasting load it creeps along the wall\n",
+                   name.c_str());
+    if (body.sliding_faces > 0)
+      std::fprintf(stderr,
+                   "fsi: notice: %s touches %lld faces of walls that move, or of inlets: nothing "
+                   "holds it at them, and a solid with ends slips by some per cent of their speed; "
+                   "better let the other walls move (doc/theory/walls.md)\n",
+                   name.c_str(), static_cast<long long>(body.sliding_faces));
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
       std::fprintf(stderr,
                    "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "

@@ -271,6 +271,16 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
+  constexpr Real most = 0.8;  // a strained solid may bare the cells at its edge
+  if (sound.bond_kept < most && !said.off) {
+    said.off = true;
+    say("warning", at + "the " + name_of(body) +
+                       print(" covers only %.0f %% of the faces of walls that it was bonded to: it "
+                             "comes off, and nothing holds it there; the mesh is too coarse for "
+                             "the strain at its foot, or it only touched the wall at the start "
+                             "(doc/theory/walls.md)",
+                             100 * sound.bond_kept));
+  }
   constexpr Real apart = 0.5;      // of the larger
   constexpr Real of_solid = 1e-3;  // of G times the volume
   // A stiff solid is far below that, and yet may store more than the flow gave. In slow flow little

@@ -65,14 +65,15 @@ class Watch {
   bool balance(const Solver& solver, bool divides, bool goes_on);
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
   /// stress is not that of its shape. Then they differ by more than half of the larger one, which
-  /// is not small beside what the solid or the flow has. Another if it has more pieces than at the
-  /// first call.
+  /// is not small beside what the solid or the flow has. Others if it has more pieces than at the
+  /// first call, and if it comes off the walls that it was bonded to.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound,
               const EnergyBalance& energy);
 
  private:
   struct Said {
-    bool leaving = false, left = false, strained = false, torn = false, forgetful = false;
+    bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
+         off = false;
     int pieces = -1;  // at first
   };
   /// The time over which viscosity, work and stored energy are compared.

@@ -38,6 +38,11 @@ MapExtension::Item MapExtension::fit(Index c, int ring) const {
     M += w * square(r) + identity();
     R += w * outer(d, r) + image(item_[k].g, n);
   });
+  for (const Index f : mesh_.cell_faces[c])
+    if (held(f)) {  // xihat = 0
+      const Real w = 1 / norm2(mesh_.d[f]);
+      W += w, m += w * mesh_.d[f], M += w * square(mesh_.d[f]);
+    }
   m *= 1 / W, e *= 1 / W;
   const Tensor g = dot(R + -W * outer(e, m), raised_inverse(M - W * square(m), mesh_.dim));
   return {e - dot(g, m), g};

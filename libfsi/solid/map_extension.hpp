@@ -17,7 +17,8 @@ namespace fsi::solid {
 ///   known cells    Gamma_c = arg min sum_k w_k |xihat_c + Gamma_c . r_k - xihat_k|^2, k known,
 ///                  or a held face, with xihat_k = 0 at its centre
 ///   rings 1 to 3   (xihat_c, Gamma_c) = arg min sum_k w_k (|xihat_c + Gamma_c . r_k - xihat_k|^2
-///                  + |r_k|^2 |Gamma_c - Gamma_k|^2), k known or in a ring before
+///                  + |r_k|^2 |Gamma_c - Gamma_k|^2), k known or in a ring before; a held face
+///                  counts with its value alone
 /// Rings need the second term, since their neighbours are on one side. The fit is exact
 /// for a linear xihat on any mesh. xihat is periodic where the mesh is. Beyond a plane of
 /// symmetry the images of cells count, with R xihat_k and R Gamma_k R (symmetry_faces.hpp).

@@ -71,10 +71,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  const std::vector<char> at_walls = bonded(walls);
-  Sum faces;
-  for (const char is : at_walls) faces.add(is);
-  bonded_faces = static_cast<Index>(faces.total());
+  const std::vector<char> at_walls = bonded(walls), at_still = bonded(still);
+  set_bond(at_walls, at_still);
   if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty())
     film.emplace(mesh, walls, at_walls);
   film_thickness = solid.film_thickness;
@@ -82,10 +80,10 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
     memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,
                    SymmetryFaces{filled.cut_by.faces});
-    memory->hold(bonded(still));
+    memory->hold(at_still);
     memory->set_undeformed(alpha);
   }
-  if (auto* map = std::get_if<solid::ReferenceMap>(&kinematics)) map->hold(bonded(still));
+  if (auto* map = std::get_if<solid::ReferenceMap>(&kinematics)) map->hold(at_still);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
 }
@@ -97,6 +95,25 @@ std::vector<char> Body::bonded(const std::vector<Patch>& patches) const {
       is[f - mesh.n_internal] =
           alpha[mesh.owner[f]] >= solid::alpha_known && vof::touches(f, alpha, interface, mesh);
   return is;
+}
+
+void Body::set_bond(const std::vector<char>& at_walls, const std::vector<char>& at_still) {
+  std::array<Sum, 2> faces;
+  for (Index b = 0; b < mesh.n_boundary(); ++b) {
+    if (at_still[b] != 0) bond.push_back(b);
+    faces[0].add(at_still[b]), faces[1].add(at_walls[b] - at_still[b]);
+  }
+  std::array<Real, 2> totals{};
+  Sum::totals(totals, faces);
+  bonded_faces = static_cast<Index>(totals[0]), sliding_faces = static_cast<Index>(totals[1]);
+}
+
+Real Body::bond_kept() const {
+  if (bonded_faces == 0) return 1;
+  GlobalIndex kept = 0;
+  for (const Index b : bond)
+    kept += alpha[mesh.owner[mesh.n_internal + b]] >= solid::alpha_known ? 1 : 0;
+  return static_cast<Real>(global_sum(kept)) / static_cast<Real>(bonded_faces);
 }
 
 void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {

@@ -72,6 +72,11 @@ struct Body {
   /// [n_boundary] 1 on faces of these patches that the solid touches, in cells that are at least
   /// half full. The planes of alpha must be those of the undeformed solid.
   std::vector<char> bonded(const std::vector<Patch>& patches) const;
+  /// Collective. Sets `bond` and both numbers; at_walls, at_still: `bonded` of all walls, and of
+  /// those at rest.
+  void set_bond(const std::vector<char>& at_walls, const std::vector<char>& at_still);
+  /// Collective. The part of `bond` whose cells are still at least half full; 1 without a bond.
+  Real bond_kept() const;
   /// Collective. Sets anew what follows from alpha and the kinematics' unknown.
   void resume();
   /// Adds alpha and the kinematics' unknown to a checkpoint's list.
@@ -185,7 +190,9 @@ struct Body {
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< with log_conformation
-  Index bonded_faces = 0;   ///< of all ranks: those of walls that the undeformed solid touches
+  std::vector<Index> bond;  ///< boundary faces of walls at rest that the undeformed solid touches
+  Index bonded_faces = 0;   ///< the number of these, of all ranks
+  Index sliding_faces = 0;  ///< of all ranks: those of walls that move and inlets
   Real film_thickness = 0;  ///< least; 0: half a cell
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.

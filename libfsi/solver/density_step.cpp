@@ -23,21 +23,25 @@ void Solver::mix_density() {
 void Solver::balance_weight(State& state) {
   const Profile::Call call(profile_, calls_.balance_weight);
   if (!heavy_) return;
-  mesh_.halo.update(force_);
-  if (state.step == 0)
+  if (state.step == 0) {
+    mesh_.halo.update(force_);
     add_pressure_of_rest(state, force_, rhie_chow_source_);
-  else if (state.step == begun_)
+  } else if (state.step == begun_) {
     add_pressure_of_new_weight(state);
-  const Vec3 uniform = driving_gradient() * axis_;
-  for (Index c = 0; c < mesh_.n_cells; ++c) heavy_->force[c] = force_[c] + uniform - grad_p_[c];
+  }
 }
 
 // The flow that is there has its own pressure, so what is new is balanced apart from it.
 void Solver::add_pressure_of_new_weight(State& state) {
   CellField<Vec3> weight(mesh_);
   FaceField<Real> source(mesh_);
-  for (Body& body : bodies_)
-    if (body.begun == state.step) add_weight(weight, source, body, projection_.stencil());
+  bool none = true;
+  for (Body& body : bodies_) {
+    if (body.begun != state.step || !body.body_force) continue;
+    none = false;
+    add_weight(weight, source, body, projection_.stencil());
+  }
+  if (none) return;
   mesh_.halo.update(weight);
   add_pressure_of_rest(state, weight, source);
 }
@@ -49,7 +53,8 @@ void Solver::add_pressure_of_rest(State& state, const CellField<Vec3>& force,
   constexpr int most = 60;
   constexpr Real round_off = 1e-15;
   const std::vector<char>& open = momentum_.boundary().open;
-  FaceField<Real> flux(mesh_), of_flow(mesh_);
+  FaceField<Real> flux(mesh_), of_flow(mesh_), oblique_rest(mesh_);
+  if (const auto& rest = projection_.oblique_rest()) oblique_rest.assign(*rest);
   if (state.step > 0) {
     const CellField<Vec3> none(mesh_);
     const FaceField<Real> nothing(mesh_);
@@ -71,6 +76,7 @@ void Solver::add_pressure_of_rest(State& state, const CellField<Vec3>& force,
     if (i == 0) first = largest;
     if (largest <= round_off * first) break;
   }
+  if (auto& rest = projection_.oblique_rest()) rest->assign(oblique_rest);  // of the flow
 }
 
 void Solver::renew_responses() {

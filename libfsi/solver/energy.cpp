@@ -65,11 +65,14 @@ EnergyBalance::EnergyBalance(const Solver& solver)
 }
 
 void EnergyBalance::resume(const Solver& solver) {
-  const Real read = power_of_flow_;
+  const Real read = power_of_flow_, stored = stored_;
   set_velocities(solver);
   keep_velocities(solver);
   set_powers_and_stored(solver);
-  if (steps_ > 0) power_of_flow_ = read;
+  if (steps_ > 0) {
+    power_of_flow_ = read;
+    work_ += stored_ - stored;
+  }
   power_ = power_of_flow_ + power_of_step_;
 }
 
@@ -218,6 +221,7 @@ Real EnergyBalance::part_made() const {
 }
 
 void EnergyBalance::list(io::Snapshot& snapshot) {
+  snapshot.add("energy_stored", &stored_);
   snapshot.add("energy_least", &least_);
   snapshot.add("energy_largest", &largest_);
   snapshot.add("energy_work", &work_);

@@ -44,7 +44,8 @@ class EnergyBalance {
   /// finite at the end of the step; nothing is added.
   void add(const Solver& solver, Real dt);
 
-  /// Collective. Goes on from the solver's state, once that and the list were read.
+  /// Collective. Goes on from the solver's state, once that and the list were read. If other
+  /// densities or moduli make it store more or less than at the checkpoint, that counts as work.
   void resume(const Solver& solver);
 
   /// E: kinetic and elastic energy.

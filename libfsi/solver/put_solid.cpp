@@ -28,9 +28,10 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
                     sizes + "; the mesh reaches " + text_of(extent(mesh)) +
                     ": look whether both are in the same unit");
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
-  require(body.filled.clearance > -touching, which + " sticks out of the mesh by " +
-                                                 print("%.4g", -body.filled.clearance) +
-                                                 ": move it or make it smaller" + sizes);
+  require(body.filled.clearance > -touching,
+          which + " sticks out of the mesh, whose boundary reaches " +
+              print("%.4g", -body.filled.clearance) + " deep into it: move it or make it smaller" +
+              sizes);
   require(!body.filled.overlaps_itself,
           which +
               " is longer than a period of the mesh and overlaps its own image: make it smaller, "
@@ -51,6 +52,29 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
     require(global_max(most) < error_of_fill,
             which + " overlaps " + called(other) + " at the start: move one of them" + sizes);
   }
+}
+
+/// Errors: Error{input} where the body has a cell between two of these planes, which then has no
+/// neighbour that tells how anything varies across them.
+void require_depth(const Body& body, const std::vector<Patch>& planes, const Mesh& mesh) {
+  constexpr Real facing = -0.7;  // cosine
+  const auto on_plane = [&](Index f) {
+    return std::ranges::any_of(planes, [&](const Patch& p) { return f >= p.begin && f < p.end; });
+  };
+  bool deep = true;
+  for (const Patch& plane : planes)
+    for (Index f = plane.begin; f < plane.end; ++f) {
+      const Index P = mesh.owner[f];
+      if (!(body.alpha[P] > 0)) continue;
+      for (const Index g : mesh.cell_faces[P]) {
+        const Real turn = dot(mesh.Sf[f], mesh.Sf[g]) / (norm(mesh.Sf[f]) * norm(mesh.Sf[g]));
+        deep = deep && !(on_plane(g) && turn < facing);
+      }
+    }
+  require(all_of_ranks(deep),
+          called(body) +
+              " lies in cells between two planes of symmetry, and one layer of cells is "
+              "too thin for a solid: give a mesh in two dimensions, or several layers");
 }
 
 }  // namespace
@@ -88,6 +112,7 @@ void Solver::put_solid(const Solid& solid) {
   body.begun = state_.step;
   try {
     require_place(body, solid, bodies_, mesh_);
+    require_depth(body, mirrors, mesh_);
   } catch (const Error&) {
     bodies_.pop_back();  // all ranks throw alike
     throw;

@@ -8,12 +8,13 @@ namespace {
 
 void list_opening(io::Snapshot& snapshot, flow::Openings::One& opening) {
   const std::string& name = opening.patch.name;
-  snapshot.add("pressure_" + name, &opening.pressure);
+  snapshot.add_optional("pressure_" + name, &opening.pressure);
   if (!opening.load.any()) return;
-  snapshot.add("stored_" + name, &opening.stored);
-  snapshot.add("flow_" + name, &opening.flow);
-  snapshot.add("known_flow_" + name, &opening.flow_known);
-  snapshot.add("trend_" + name, &opening.trend);
+  // A patch may get a load when a run goes on.
+  snapshot.add_optional("stored_" + name, &opening.stored);
+  snapshot.add_optional("flow_" + name, &opening.flow);
+  snapshot.add_optional("known_flow_" + name, &opening.flow_known);
+  snapshot.add_optional("trend_" + name, &opening.trend);
 }
 
 }  // namespace
@@ -35,8 +36,8 @@ void Solver::list(io::Snapshot& snapshot) {
   snapshot.add("momentum_steps", &momentum_.steps_taken);
   for (flow::Openings::One& opening : openings_.all()) list_opening(snapshot, opening);
   snapshot.add("dt_cap", &dt_cap_);
-  if (prescribed_) snapshot.add("flow_passed", &passed_);
-  if (forcing_) snapshot.add("driving_gradient", &forcing_->gradient);
+  if (prescribed_) snapshot.add_optional("flow_passed", &passed_);
+  if (forcing_) snapshot.add_optional("driving_gradient", &forcing_->gradient);
   for (Body& body : bodies_) body.list(snapshot);
 }
 

@@ -338,9 +338,9 @@ class Solver {
   /// The density and what it needs, where some solid's is not the fluid's.
   struct Heavy {
     Heavy(const Mesh& mesh, const FaceWeights& weights, Real rho)
-        : density(mesh, weights, rho), force(mesh) {}
+        : density(mesh, weights, rho), acceleration(mesh) {}
     flow::Density density;
-    CellField<Vec3> force;  // all that pushes a cell, in a step
+    CellField<Vec3> acceleration;  // of the cells by all forces, in a step
   };
   std::optional<Heavy> heavy_;
   std::optional<vof::Separation> separation_;  // where there are several solids

@@ -53,10 +53,11 @@ def main():
     check_notice(go_on(*changed), "-solid_shear_modulus 1 (was 0.1)",
                  "-fluid_viscosity 0.02 (was 0.01)")
     check(go_on(*changed) == [], "the next checkpoint knows of the change")
-    check_notice(go_on(*changed, "-fluid_density", "2", "-solid_density", "2"),
-                 "-fluid_density 2 (was 1)", "-solid_density 2 (was 1)")
+    # The same velocity then has another energy, of which the scheme made nothing.
+    check_notice(go_on(*changed, "-fluid_density", "20", "-solid_density", "20"),
+                 "-fluid_density 20 (was 1)", "-solid_density 20 (was 1)")
     check_notice(go_on(*changed, "-lid_velocity", "0.5"), "-lid_velocity 0.5 (was 1)",
-                 "-fluid_density 1 (was 2)", "-solid_density 1 (was 2)")
+                 "-fluid_density 1 (was 20)", "-solid_density 1 (was 20)")
     changed += ["-lid_velocity", "0.5"]
     refused = go_on(*changed, "-solid_shape", "cylinder", "-solid_radius", "0.3", code=2)
     refused = [line for line in refused if "cells through its thickness" not in line]

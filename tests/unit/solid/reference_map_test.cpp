@@ -184,6 +184,36 @@ TEST(MapExtension, IsExactForALinearMap) {
   }
 }
 
+// At a wall that the solid is bonded to the map is zero, in the rings beyond the known cells too.
+// So the shape of a solid that is pulled off its foot reaches the wall, and alpha is held to it.
+TEST(MapExtension, BeyondTheKnownCellsABondHoldsTheMapToo) {
+  for (const bool simplex : {false, true}) {
+    Full run(plane(12, simplex, false));
+    const Mesh& mesh = run.mesh;
+    std::vector<char> floor(static_cast<std::size_t>(mesh.n_boundary()), 0);
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+      floor[f - mesh.n_internal] = mesh.Cf[f].y < 1e-9;
+    run.kinematics.hold(floor);
+    for (Index c = 0; c < mesh.n_cells; ++c) run.alpha[c] = mesh.C[c].x < 0.5 ? 1 : 0;
+    const auto beside = [&](const Vec3& x) { return x.x > 0.5 && x.x < 0.7 && x.y < 1.0 / 12; };
+    // A shear, which is zero at the floor, is continued exactly.
+    const Vec3 shear{0.3, -0.1, 0};
+    run.set_map([&](const Vec3& x) { return x + x.y * shear; });
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      EXPECT_LE(beside(mesh.C[c]) ? norm(run.kinematics.d[c] - mesh.C[c].y * shear) : 0, 1e-12);
+    // A shift of all known cells does not reach the floor.
+    run.set_map([](const Vec3& x) { return x + Vec3{0.1, 0, 0}; });
+    int count = 0;
+    for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+      const Index c = mesh.owner[f];
+      if (floor[f - mesh.n_internal] == 0 || !beside(mesh.C[c])) continue;
+      EXPECT_LE(norm(run.kinematics.d[c]), 0.06) << mesh.C[c].x;
+      ++count;
+    }
+    EXPECT_GT(global_max(count), 0);
+  }
+}
+
 // Where d was not set the cell is not known, however full it becomes: it has no map to carry.
 TEST(MapExtension, CellsWithoutAMapStayUnknown) {
   Full run(plane(16, false, false));

@@ -171,6 +171,21 @@ std::string refusal(const Call& call) {
   return "";
 }
 
+TEST(Bodies, RefusesOneLayerOfCellsBetweenPlanesOfSymmetry) {
+  const auto sentence = [](Index layers) {
+    const Mesh mesh = test::read_box({.n = {8, 8, layers}, .length = {1, 1, 0.25}});
+    Conditions conditions{{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}};
+    conditions["back"] = conditions["front"] = Slip{};
+    Solver solver(mesh, {}, {.conditions = conditions});
+    return refusal([&] {
+      solver.put_solid(
+          {.shape = shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0}), .G = 1, .mu = 1});
+    });
+  };
+  EXPECT_EQ(sentence(2), "");
+  EXPECT_NE(sentence(1).find("one layer of cells is too thin"), std::string::npos);
+}
+
 TEST(Bodies, OneThatIsRefusedIsNotThere) {
   Scene scene(false), other(false);
   for (Scene* one : {&scene, &other}) one->solver.put_solid(disc("one", {0.4, 0.5, 0}, 1));

@@ -164,6 +164,44 @@ TEST(Density, LetsADiscFallThatIsPutInLater) {
   EXPECT_NEAR(late[1], at_once[1], 4e-4 * at_once[1]);
 }
 
+/// A light disc, much more viscous than the fluid, turns with a sheared fluid almost rigidly. Its
+/// viscous forces balance its pressure, and what they leave is small against both.
+TEST(Density, KeepsALightViscousDiscSmoothOnTriangles) {
+  constexpr Index n = 16;
+  const Mesh mesh = test::read_box({.n = {n, n, 0},
+                                    .length = {1, 1, 1},
+                                    .simplex = true,
+                                    .periodic = {"left", "right"},
+                                    .moved = [](const Vec3& x) {
+                                      const auto wave = [](Real s) { return std::sin(37 * s); };
+                                      const Real part = 0.2 / n * x.y * (1 - x.y) * 4;
+                                      const Real across = std::sin(shapes::pi * x.x);
+                                      return x + part * across * Vec3{wave(x.y), wave(x.x), 0};
+                                    }});
+  const auto steepest = [&](Real rho) {
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.05},
+                  {.conditions = {{"bottom", Wall{}}, {"top", Wall{{1, 0, 0}}}}});
+    solver.start([](const Vec3& x) { return Vec3{x.y, 0, 0}; });
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.25), {0.5, 0.6, 0}),
+                      .G = 1,
+                      .mu = 2.4,
+                      .rho = rho});
+    Real most = 0;
+    for (int i = 0; i < 150; ++i) {
+      solver.step(4e-3);
+      for (Index f = 0; i > 50 && f < mesh.n_internal; ++f)
+        most = std::max(
+            most, norm(solver.state().u[mesh.neighbour[f]] - solver.state().u[mesh.owner[f]]) /
+                      norm(mesh.d[f]));
+    }
+    return global_max(most);
+  };
+  const Real alike = steepest(1), light = steepest(0.1);
+  std::printf("viscous disc: largest difference of velocities over distance %.3f, light %.3f\n",
+              alike, light);
+  EXPECT_LE(light, 1.1 * alike);
+}
+
 /// A layer across a column without ends falls with all of the fluid: f of the height, ratio r,
 ///   (1 + f (r - 1)) du/dt = f (r - 1) g.
 Speeds falling(bool simplex, Real ratio, bool held) {

@@ -245,6 +245,32 @@ TEST(Openings, TheLevelOfThePressureMovesNothing) {
   }
 }
 
+/// A mesh in space, one cell thick between two planes of symmetry, has the flow of the plane one.
+TEST(Openings, OneLayerOfCellsFlowsLikeAPlane) {
+  constexpr Real depth = 0.25;
+  const auto run = [&](Index layers) {
+    const Mesh mesh =
+        test::read_box({.n = {16, 8, layers}, .length = {2, 1, layers > 0 ? depth : 1}});
+    Conditions conditions{{"left", FlowRate{.rate = layers > 0 ? depth : 1}},
+                          {"right", Opening{}},
+                          {"bottom", Wall{}},
+                          {"top", Wall{}}};
+    if (layers > 0) conditions["back"] = conditions["front"] = Slip{};
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.05}, {.conditions = conditions});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    for (int i = 0; i < 5; ++i) solver.step(0.01);
+    Sum u, n;
+    const Patch& left = mesh.patch("left");
+    for (Index f = left.begin; f < left.end; ++f)
+      u.add(std::abs(solver.state().u[mesh.owner[f]].x)), n.add(1);
+    return std::pair{beside(solver, "left").first, u.total() / n.total()};
+  };
+  const auto [p, u] = run(0);
+  const auto [p_layer, u_layer] = run(1);
+  EXPECT_NEAR(p_layer, p, 1e-5 * p);
+  EXPECT_NEAR(u_layer, u, 1e-5 * u);
+}
+
 TEST(Openings, ABodyForceDrivesLikeAPressure) {
   const Mesh mesh = channel(16, true);
   const Real mu = 0.5;
