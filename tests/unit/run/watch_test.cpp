@@ -45,6 +45,38 @@ TEST(Watch, AnOddEnergyIsToldWithThePlaceOfStrain) {
   }
 }
 
+// A block on the floor. Its bond is told of once more than a fifth of it is bare.
+TEST(Watch, ABareBondIsToldOnce) {
+  const Mesh mesh = test::read_box({.n = {20, 10, 0}, .length = {2, 1, 1}});
+  Solver solver{
+      mesh,
+      {.rho = 1, .mu_f = 0.1},
+      {.conditions = {
+           {"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{{1, 0, 0}}}}}};
+  solver.start([](const Vec3&) { return Vec3{}; });
+  solver.put_solid(
+      {.shape = shapes::translate(shapes::box({0.8, 0.4, 9}), {1, 0.2, 0}), .G = 1, .mu = 0.1});
+  Body& body = *solver.body();
+  EXPECT_EQ(body.bonded_faces, 8);
+  EXPECT_EQ(body.sliding_faces, 0);
+  EXPECT_EQ(body.bond_kept(), 1);
+  Watch watch(1);
+  const EnergyBalance energy(solver);
+  const auto said = [&](Real bare_to) {
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (mesh.C[c].x < bare_to) body.alpha[c] = 0;
+    testing::internal::CaptureStderr();
+    watch.strain(0, solver, {.bond_kept = body.bond_kept()}, energy);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(0.7), "") << "one face of eight";
+  const std::string warning = said(0.8);
+  if (rank() == 0) {
+    EXPECT_NE(warning.find("covers only 75 % of the faces of walls"), std::string::npos) << warning;
+  }
+  EXPECT_EQ(said(1), "");
+}
+
 TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
   Watch watch(0);
   const auto said = [&](std::int64_t few, std::int64_t many, std::int64_t steps) {
