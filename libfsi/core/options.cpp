@@ -284,7 +284,12 @@ void Options::check_unknown() const {
   for (const std::string& name : unread()) {
     if (of_petsc(name) || of_solver(name)) continue;
     sentence += (sentence.empty() ? "unknown option -" : ", -") + name;
-    if (!valid.empty()) sentence += " (nearest is -" + nearest(name, valid) + ")";
+    const bool block = std::ranges::any_of(
+        valid, [&, &key = name](const std::string& v) { return v.starts_with(key + "_"); });
+    if (block)
+      sentence += " (a block of a case file takes options, " + name + ": {...})";
+    else if (!valid.empty())
+      sentence += " (nearest is -" + nearest(name, valid) + ")";
   }
   require(sentence.empty(), sentence + "; " + program_ + " -help lists all");
 }

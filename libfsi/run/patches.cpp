@@ -134,6 +134,9 @@ class PatchOptions {
     opening.load.capacitance =
         real("capacitance", to_be_given, "windkessel, to be given: volume per pressure",
              "volume / pressure");
+    require(options_.help() || opening.load.capacitance > 0,
+            "option -" + of("capacitance") + " must be above 0; without one give the patch type " +
+                "resistance and the sum of both");
     opening.load.stored =
         options_.real(of("stored_pressure"), 0,
                       {.help = "windkessel: of the capacitance at the start", .unit = "pressure"});
@@ -201,7 +204,8 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
                         "\" of the mesh differ by capitals alone, which options do not tell apart; "
                         "rename one in gmsh");
   }
-  const std::string has = "the mesh has: " + joined(names_of(mesh));
+  const std::string has = mesh.patches.empty() ? "the mesh has no patch but periodic ones"
+                                               : "the mesh has: " + joined(names_of(mesh));
   for (const std::string& name : names_of(mesh))
     require(!options.given("patches_" + name), "option -patches_" + name +
                                                    ": a patch takes a type, patches: {" + name +

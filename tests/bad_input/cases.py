@@ -59,6 +59,7 @@ def mesh(name, damage, *fragments, driver="fsi-cavity", arguments="", of="cavity
 
 OPTIONS = [
     option("misspelt option", "-fluid_viscosty 0.1", "-fluid_viscosty", "-fluid_viscosity"),
+    option("a value for a block", "-fluid 3", "-fluid (a block of a case file", "fluid: {...}"),
     option("viscosity NaN", "-fluid_viscosity nan", "-fluid_viscosity", "nan", "value > 0"),
     option("viscosity infinite", "-fluid_viscosity inf", "-fluid_viscosity", "inf"),
     option("viscosity negative", "-fluid_viscosity -1", "-fluid_viscosity", "-1", "value > 0"),

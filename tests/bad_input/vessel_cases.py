@@ -66,6 +66,8 @@ def cases(Case):
              "center: [0.5, 0.5, 0]}}"), "-solids_one_path", "-solids_one_center"),
         case("windkessel without its capacitance", yaml(right="{type: windkessel, distal_resistance: 3}"),
              "-patches_right_capacitance", "missing", "volume per pressure"),
+        case("windkessel of no capacitance", yaml(right="{type: windkessel, capacitance: 0, "
+             "distal_resistance: 3}"), "-patches_right_capacitance", "above 0", "type resistance"),
         case("windkessel without its resistance", yaml(right="{type: windkessel, capacitance: 3}"),
              "-patches_right_distal_resistance", "missing"),
         case("resistance without its own", yaml(right="{type: resistance}"), "-patches_right_resistance",
