@@ -38,24 +38,25 @@ Real nearness(const FluxTerms& terms, Real part) {
 
 /// t_f: at the solid's surface the braces contain a jump, and its flux is an error in proportion
 /// to t_f.
-Real damping_time(const FluxTerms& terms, const Mesh& mesh, Index f, Real speed) {
+Real damping_time(const FluxTerms& terms, const Mesh& mesh, Index f, Real speed, Real dt) {
   constexpr Real courant = 0.02;
   const Real near = nearness(terms, std::abs(terms.rhie_chow_source[f]));
-  if (near == 0) return terms.dt;
-  const Real shorter = std::min(terms.dt, courant * norm(mesh.d[f]) / std::max(speed, 1e-300));
-  return terms.dt - near * (terms.dt - shorter);
+  if (near == 0) return dt;
+  const Real shorter = std::min(dt, courant * norm(mesh.d[f]) / std::max(speed, 1e-300));
+  return dt - near * (dt - shorter);
 }
 
-/// w_f = (1 - a_f) max(0, 1 - rho d_f / T_f),
-/// 1 / T_f = 6 |u_f| / |d| + 3 mu / (rho |d|^2) + 1 / t; a_f: nearness to solids.
-Real held(const FluxTerms& terms, const Mesh& mesh, Index f, Real d_f, Real speed) {
+/// w_f = (1 - a_f) max(0, 1 - rho d_f / T_f) + a_f max(0, 1 - t_f / t_f,old),
+/// 1 / T_f = 6 |u_f| / |d| + 3 mu / (rho |d|^2) + 1 / t; a_f: nearness to solids. ratio: t_f over
+/// that of the last step.
+Real held(const FluxTerms& terms, const Mesh& mesh, Index f, Real d_f, Real speed, Real ratio) {
   constexpr Real convection = 6, viscosity = 3;
   if (terms.excess == nullptr || terms.t <= 0) return 0;
   const Real strain = terms.stiffness != nullptr ? (*terms.stiffness)[f] / terms.dt : 0;
   const Real near = nearness(terms, std::abs(terms.rhie_chow_source[f]) + strain);
   const Real rate = density(terms, f) * (convection * speed / norm(mesh.d[f]) + 1 / terms.t) +
                     viscosity * terms.mu[f] / norm2(mesh.d[f]);
-  return (1 - near) * std::max(Real{0}, 1 - d_f * rate);
+  return (1 - near) * std::max(Real{0}, 1 - d_f * rate) + near * std::max(Real{0}, 1 - ratio);
 }
 
 }  // namespace
@@ -69,6 +70,7 @@ void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi, const 
 void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
                   const std::vector<char>& open_face, const FluxTerms& terms,
                   const FaceWeights& weights, const Mesh& mesh) {
+  const Real old = terms.dt_old;
   for (Index f = 0; f < mesh.n_internal; ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f], i = weights.place[f];
     const Real lambda = weights.lambda[f];
@@ -80,9 +82,11 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
     if (terms.density != nullptr)
       brace += flux_of_force(*terms.density, *terms.acceleration, weights, mesh, f);
     const Real speed = norm(u_f);
-    const Real d_f = damped(terms, mesh, f, damping_time(terms, mesh, f, speed));
+    const Real t_f = damping_time(terms, mesh, f, speed, terms.dt);
+    const Real ratio = terms.dt < old ? t_f / damping_time(terms, mesh, f, speed, old) : 1;
+    const Real d_f = damped(terms, mesh, f, t_f);
     phi[f] = dot(u_f, mesh.Sf[f]) + d_f * brace;
-    if (const Real w_f = held(terms, mesh, f, d_f, speed); w_f > 0)
+    if (const Real w_f = held(terms, mesh, f, d_f, speed, ratio); w_f > 0)
       phi[f] += w_f * (*terms.excess)[f];
   }
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
@@ -95,7 +99,8 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
       brace += flux_of_force(*terms.density, *terms.acceleration, weights, mesh, f);
     const Real d_f = damped(terms, mesh, f, terms.dt);
     phi[f] += d_f * brace;
-    if (const Real w_f = held(terms, mesh, f, d_f, norm(u_b[b])); w_f > 0)
+    const Real ratio = terms.dt < old ? terms.dt / old : 1;
+    if (const Real w_f = held(terms, mesh, f, d_f, norm(u_b[b]), ratio); w_f > 0)
       phi[f] += w_f * (*terms.excess)[f];
   }
 }
@@ -218,9 +223,9 @@ void Projection::add_to_oblique_rest(Real sign) {
   }
 }
 
-void Projection::subtract_oblique_rest(FaceField<Real>& excess) const {
+void Projection::subtract_oblique_rest(FaceField<Real>& excess, Real part) const {
   if (!oblique_rest_) return;
-  for (const Index f : weights_.irregular) excess[f] -= (*oblique_rest_)[f];
+  for (const Index f : weights_.irregular) excess[f] -= part * (*oblique_rest_)[f];
 }
 
 // A constant added to q changes the flux through the openings alone. The constant that leaves no

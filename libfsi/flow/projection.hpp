@@ -30,6 +30,7 @@ struct FluxTerms {
   const FaceField<Real>& kappa;  ///< implicit in addition to theta mu; 0 away from the solid
   /// Density of the fluid; length of the step.
   Real rho = 1, dt = 0;
+  Real dt_old = 0;                                ///< length of the last step; 0: there was none
   const Density* density = nullptr;               ///< null: rho everywhere
   const CellField<Vec3>* acceleration = nullptr;  ///< of cells by all forces; read with a density
   Real stress = 0;                                ///< scale of the elastic stress; 0 without one
@@ -48,7 +49,7 @@ void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi, const 
 ///   phi* = Phi(u*) + w_f e_f + d_f { Phi(grad p) - g (p_N - p_P) - k . (grad p)_f + g c_f },
 ///   Phi(v) = [lambda v_P + (1 - lambda) v_N (+ L_f . delta_1-lambda for u*)] . S,
 ///   d_f = t_f / (rho + 4 t_f (theta_f mu + kappa + 2 dt G alpha_f lambda_B) / |d|^2),
-///   w_f = (1 - a_f) max(0, 1 - rho d_f / T_f),
+///   w_f = (1 - a_f) max(0, 1 - rho d_f / T_f) + a_f max(0, 1 - t_f / t_f,old),
 ///   1 / T_f = 6 |u_f| / |d| + 3 mu / (rho |d|^2) + 1 / t.
 /// The part w_f of the old excess stays. In a steady flow the excess is then T_f times the braces
 /// over rho in all steps shorter than T_f, so the flow does not depend on the step [Choi99]. a_f is
@@ -110,8 +111,9 @@ class Projection {
                     const BoundaryField<Real>& p_b);
   /// Subtracts from e_f the part r_f = k . ((grad q)_f - (grad q')_f) of the last `project`, with
   /// q' of the solve before the last one. The last solve takes (grad q')_f, and the pressure that
-  /// follows from q has (grad q)_f. So r_f is no excess that this pressure would hold.
-  void subtract_oblique_rest(FaceField<Real>& excess) const;
+  /// follows from q has (grad q)_f. So r_f is no excess that this pressure would hold. It belongs
+  /// to the length of its step: part is the new length over the old one, at most 1.
+  void subtract_oblique_rest(FaceField<Real>& excess, Real part) const;
   /// r_f of every face, part of a checkpoint; none on meshes without irregular faces.
   std::optional<FaceField<Real>>& oblique_rest() { return oblique_rest_; }
   /// At irregular faces, of the last `set_gradient`; `project` overwrites it.

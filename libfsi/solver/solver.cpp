@@ -169,7 +169,7 @@ void Solver::step(Real dt) {
   add_semi_implicit(kappa_, stiffness_, force_, dt);           // (12)
   add_body_force(force_, t + dt / 2);                          // (13)
   balance_weight(state_);                                      // (14)
-  set_flux_excess(state_);                                     // (15)
+  set_flux_excess(state_, dt);                                 // (15)
   predict_momentum(state_.u, dt);                              // (16)
   predict_flux(state_.phi, state_.u, dt);                      // (17)
   project(state_, dt);                                         // (18)
@@ -212,12 +212,13 @@ void Solver::add_body_force(CellField<Vec3>& force, Real t) {
     throw Error(ErrorKind::numerics, "the body force is not finite");
 }
 
-void Solver::set_flux_excess(const State& state) {
+void Solver::set_flux_excess(const State& state, Real dt) {
   const Profile::Call call(profile_, calls_.set_flux_excess);
   if (projection_.orthogonal()) return;
   flow::set_flux_excess(excess_, state.phi, state.u, L_f_, weights_, mesh_);
   openings_.set_flux_excess(excess_, state.phi, state.u, L_f_, weights_);
-  projection_.subtract_oblique_rest(excess_);
+  const Real old = momentum_.dt_old;
+  projection_.subtract_oblique_rest(excess_, dt < old ? dt / old : 1);
 }
 
 void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
@@ -257,6 +258,7 @@ flow::FluxTerms Solver::flux_terms(Real dt) const {
           .kappa = implicit(),
           .rho = physics_.rho,
           .dt = dt,
+          .dt_old = momentum_.dt_before,
           .density = heavy_ ? &heavy_->density : nullptr,
           .acceleration = heavy_ ? &heavy_->acceleration : nullptr,
           .stress = modes_.G,

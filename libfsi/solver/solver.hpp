@@ -211,7 +211,7 @@ class Solver {
   void add_pressure_of_rest(State& state, const CellField<Vec3>& force,
                             const FaceField<Real>& source);
   void add_pressure_of_new_weight(State& state);
-  void set_flux_excess(const State& state);
+  void set_flux_excess(const State& state, Real dt);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
   /// What the flux at the faces takes over a step of dt; with 0 that of a given velocity alone.
