@@ -11,7 +11,8 @@ enum class Signal : int {
             ///< interrupted
 };
 
-/// Installs the handlers. SIGPIPE is ignored, and so stays SIGHUP where it is.
+/// Installs the handlers. SIGPIPE is ignored, and so stays SIGHUP where it is. A third request to
+/// end that nobody has asked for ends the process at once.
 void watch_signals();
 /// Collective. The strongest request any rank received; it is then forgotten.
 Signal pending_signal();

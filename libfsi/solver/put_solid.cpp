@@ -16,6 +16,25 @@ std::string called(const Body& body) {
   return body.name.empty() ? "the solid" : "solid \"" + body.name + "\"";
 }
 
+/// Errors: Error{input} where a figure of the material is not finite or out of its bounds, those of
+/// the options of the drivers.
+void require_material(const Solid& solid, const Physics& physics) {
+  constexpr Real lightest = 0.1, heaviest = 20, most_viscous = 200;  // of the fluid's
+  const std::string which = solid.name.empty() ? "the solid" : "solid \"" + solid.name + "\"";
+  require(solid.G >= 0 && std::isfinite(solid.G),
+          which + print(": G is %g and must be a number >= 0", solid.G));
+  require(solid.mu >= 0 && std::isfinite(solid.mu),
+          which + print(": mu is %g and must be a number >= 0", solid.mu));
+  require(physics.mu_f <= 0 || solid.mu <= most_viscous * physics.mu_f,
+          which + print(": mu is %g and must be at most %g times that of the fluid", solid.mu,
+                        most_viscous));
+  require(
+      solid.rho == 0 ||
+          (solid.rho >= lightest * physics.rho && solid.rho <= heaviest * physics.rho),
+      which + print(": rho is %g and must be %g to %g times that of the fluid, or 0 for the same",
+                    solid.rho, lightest, heaviest));
+}
+
 /// Errors: Error{input} where the body that was made of `solid` does not fit among the others.
 void require_place(const Body& body, const Solid& solid, const std::deque<Body>& others,
                    const Mesh& mesh) {
@@ -96,6 +115,7 @@ void Solver::put_solid(const Solid& solid) {
           print("the acceleration of a solid has the component %g along z, but a mesh of two "
                 "dimensions lies in the x-y plane, and nothing moves out of it",
                 solid.acceleration.z));
+  require_material(solid, physics_);
   for (const Body& other : bodies_)
     require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
   std::vector<Patch> mirrors, walls, still;

@@ -64,7 +64,8 @@ class Solver {
   /// its own where there are several. One that is put in between two steps moves with the fluid
   /// that is there. An Output watches the solids that were there when it was made: end it first
   /// (Output). No solid is taken out again. Errors: Error{input} where it is empty, leaves the
-  /// mesh, overlaps another or has another's name; the solver is then as before.
+  /// mesh, overlaps another, has another's name or a material out of bounds; the solver is then as
+  /// before.
   void put_solid(const Solid& solid);
 
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.

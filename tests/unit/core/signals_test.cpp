@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -24,6 +25,19 @@ TEST(Signals, TheEndOutweighsACheckpoint) {
     std::raise(SIGUSR1);
     EXPECT_EQ(pending_signal(), Signal::end);
   }
+}
+
+TEST(Signals, TheThirdThatNobodySeesEndsTheProcess) {
+  if (ranks() > 1) return;
+  EXPECT_EXIT(
+      {
+        watch_signals();
+        for (int i = 0; i < 2; ++i) std::raise(SIGTERM);
+        if (pending_signal() != Signal::end) std::exit(1);
+        for (int i = 0; i < 3; ++i) std::raise(SIGTERM);
+        std::exit(2);
+      },
+      testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace

@@ -171,6 +171,24 @@ std::string refusal(const Call& call) {
   return "";
 }
 
+TEST(Bodies, RefusesAMaterialOutOfBounds) {
+  const auto sentence = [](Real G, Real mu, Real rho) {
+    Scene scene(false);
+    Solid solid = disc("one", {0.4, 0.5, 0}, 1);
+    solid.G = G, solid.rho = rho;
+    solid.mu = mu * scene.solver.physics().mu_f;
+    return refusal([&] { scene.solver.put_solid(solid); });
+  };
+  EXPECT_EQ(sentence(1, 1, 0), "");
+  EXPECT_EQ(sentence(0, 0, 2), "");
+  EXPECT_EQ(sentence(-1, 1, 0), "solid \"one\": G is -1 and must be a number >= 0");
+  EXPECT_NE(sentence(std::nan(""), 1, 0).find("G is nan"), std::string::npos);
+  EXPECT_NE(sentence(1, -1, 0).find("must be a number >= 0"), std::string::npos);
+  EXPECT_NE(sentence(1, 201, 0).find("at most 200 times"), std::string::npos);
+  EXPECT_NE(sentence(1, 1, -3).find("rho is -3 and must be 0.1 to 20 times"), std::string::npos);
+  EXPECT_NE(sentence(1, 1, 500).find("rho is 500"), std::string::npos);
+}
+
 TEST(Bodies, RefusesOneLayerOfCellsBetweenPlanesOfSymmetry) {
   const auto sentence = [](Index layers) {
     const Mesh mesh = test::read_box({.n = {8, 8, layers}, .length = {1, 1, 0.25}});
