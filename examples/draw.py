@@ -68,8 +68,9 @@ def arguments():
     parser.add_argument("--camera", type=direction, metavar="X,Y,Z", help="the direction from which one looks "
                         "in 3-D, --camera=-1,0.5,0 where the first number is negative; not given: a little "
                         "aside of the normal of --plane")
-    parser.add_argument("--mirror", type=plane, metavar="PLANE", help="the image beyond a plane of symmetry "
-                        "too, as z=0.5, at an end of the mesh; volumes, energies and flow rates are of both sides")
+    parser.add_argument("--mirror", type=plane, action="append", metavar="PLANE", help="the image beyond a "
+                        "plane of symmetry too, as z=0.5, at an end of the mesh; volumes, energies and flow rates "
+                        "are of both sides")
     parser.add_argument("--relative", action="store_true", help="streamlines of flow.png and view.png as "
                         "seen by who moves with the body")
     parser.add_argument("--time", type=float, help="view.png at the field file nearest to this time; not "
@@ -81,7 +82,11 @@ def arguments():
                         metavar="LENGTH,TIME,MASS", help="units of the case for the labels: m,s,kg")
     parser.add_argument("--renderer", choices=("auto", "vtk", "plain"), default="auto", help="what draws in "
                         "3-D: VTK, or numpy alone; not given: VTK where python3-vtk9 and xvfb are installed")
-    return parser.parse_args()
+    args = parser.parse_args()
+    if args.mirror and len(args.mirror) > 1:
+        parser.error("--mirror: one plane of symmetry only")
+    args.mirror = args.mirror[0] if args.mirror else None
+    return args
 
 
 def print_numbers(run):

@@ -292,11 +292,9 @@ void Reader::section(const std::string& name) {
   if (name == "$Nodes") {
     is(2.2) ? nodes_2() : nodes_4();
     numbering_.build(raw_.point_tags);
-    for (std::size_t i = 0; i < raw_.point_tags.size(); ++i) {
-      if (numbering_[raw_.point_tags[i]] != static_cast<Index>(i)) {
+    for (std::size_t i = 0; i < raw_.point_tags.size(); ++i)
+      if (numbering_[raw_.point_tags[i]] != static_cast<Index>(i))
         in_.fail("node " + std::to_string(raw_.point_tags[i]) + " is defined twice");
-      }
-    }
     return;
   }
   if (name == "$Elements") return is(2.2) ? elements_2() : elements_4();
@@ -309,6 +307,8 @@ RawMesh Reader::read() {
     if (name.front() != '$')
       in_.fail("expected a section ($...), found \"" + name.substr(0, 40) + "\"");
     in_.set_section(name);
+    if (name == "$PartitionedEntities")
+      in_.fail("the mesh is partitioned by gmsh: mesh it without -part, a run divides it itself");
     const std::string end = "$End" + name.substr(1);
     const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" ||
                        name == "$Elements" || name == "$Periodic";

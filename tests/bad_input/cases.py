@@ -191,6 +191,7 @@ MESH = [
          driver="fsi-pipe", arguments="-mesh_periodic inlet,outlet"),
     mesh("boundary face without a name", f.elements(f.dropped, cells=False), "boundary face"),
     mesh("no names", f.without("PhysicalNames"), "name"),
+    mesh("divided by gmsh", f.partitioned, "partitioned by gmsh", "without -part"),
     mesh("patch misspelt", f.renamed("top", "topp"), "topp", "top, wall"),
     mesh("patch missing", f.renamed("top", "wall"), "top"),
     mesh("two cells across a period", None, "fewer than 3 cells", of="thin",

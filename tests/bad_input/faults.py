@@ -158,6 +158,11 @@ def without(name):
     return damage
 
 
+def partitioned(text):
+    """With the entities of a mesh that gmsh divided."""
+    return text.replace("$Nodes", "$PartitionedEntities\n0\n$EndPartitionedEntities\n$Nodes", 1)
+
+
 def renamed(old, new):
     def damage(text):
         return text.replace(f'"{old}"', f'"{new}"')
