@@ -107,7 +107,7 @@ void read_material(Options& options, const std::string& of, const Physics& physi
                                              "of the fluid",
                                      .unit = "mass / volume",
                                      .positive = true});
-  require(density >= 0.1 * physics.rho && density <= 20 * physics.rho,
+  require(density >= density_ratio_min * physics.rho && density <= density_ratio_max * physics.rho,
           "option -" + of + "density: must be 0.1 to 20 times -fluid_density");
   solid.rho = density;
   solid.mu =
@@ -115,7 +115,7 @@ void read_material(Options& options, const std::string& of, const Physics& physi
                    {.help = "dynamic viscosity of the solid, at most 200 times that of the fluid",
                     .unit = "mass / (length time)",
                     .min = 0});
-  require(solid.mu <= 200 * physics.mu_f,  // doc/verification/stiff.md
+  require(solid.mu <= viscosity_ratio_max * physics.mu_f,  // doc/verification/stiff.md
           "option -" + of +
               "viscosity: must be at most 200 times -fluid_viscosity; for a body that is " +
               "nearly rigid take a large -" + of + "shear_modulus");

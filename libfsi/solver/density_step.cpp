@@ -26,7 +26,7 @@ void Solver::balance_weight(State& state) {
   if (state.step == 0) {
     mesh_.halo.update(force_);
     add_pressure_of_rest(state, force_, rhie_chow_source_);
-  } else if (state.step == begun_) {
+  } else if (state.step == begun()) {
     add_pressure_of_new_weight(state);
   }
 }

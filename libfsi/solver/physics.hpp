@@ -18,6 +18,10 @@ struct Physics {
 /// The kinematics of a solid.
 enum class KinematicsKind { left_cauchy_green, log_conformation, reference_map };
 
+/// Bounds of a solid's density and viscosity, in parts of the fluid's
+/// (doc/verification/settling.md, stiff.md).
+inline constexpr Real density_ratio_min = 0.1, density_ratio_max = 20, viscosity_ratio_max = 200;
+
 /// A solid as it is put into the fluid, in consistent units.
 struct Solid {
   shapes::Shape shape;  ///< undeformed

@@ -19,20 +19,19 @@ std::string called(const Body& body) {
 /// Errors: Error{input} where a figure of the material is not finite or out of its bounds, those of
 /// the options of the drivers.
 void require_material(const Solid& solid, const Physics& physics) {
-  constexpr Real lightest = 0.1, heaviest = 20, most_viscous = 200;  // of the fluid's
   const std::string which = solid.name.empty() ? "the solid" : "solid \"" + solid.name + "\"";
   require(solid.G >= 0 && std::isfinite(solid.G),
           which + print(": G is %g and must be a number >= 0", solid.G));
   require(solid.mu >= 0 && std::isfinite(solid.mu),
           which + print(": mu is %g and must be a number >= 0", solid.mu));
-  require(physics.mu_f <= 0 || solid.mu <= most_viscous * physics.mu_f,
+  require(physics.mu_f <= 0 || solid.mu <= viscosity_ratio_max * physics.mu_f,
           which + print(": mu is %g and must be at most %g times that of the fluid", solid.mu,
-                        most_viscous));
+                        viscosity_ratio_max));
   require(
-      solid.rho == 0 ||
-          (solid.rho >= lightest * physics.rho && solid.rho <= heaviest * physics.rho),
+      solid.rho == 0 || (solid.rho >= density_ratio_min * physics.rho &&
+                         solid.rho <= density_ratio_max * physics.rho),
       which + print(": rho is %g and must be %g to %g times that of the fluid, or 0 for the same",
-                    solid.rho, lightest, heaviest));
+                    solid.rho, density_ratio_min, density_ratio_max));
 }
 
 /// Errors: Error{input} where the body that was made of `solid` does not fit among the others.
@@ -145,8 +144,13 @@ void Solver::put_solid(const Solid& solid) {
   }
   mix_viscosity(mu_);
   mix_density();
-  begun_ = state_.step;
   hold_backup();
+}
+
+std::int64_t Solver::begun() const {
+  std::int64_t last = 0;
+  for (const Body& body : bodies_) last = std::max(last, body.begun);
+  return last;
 }
 
 void Solver::set_modes(const Body& body) {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -43,8 +41,6 @@ void Solver::list(io::Snapshot& snapshot) {
 
 void Solver::resume() {
   for (Body& body : bodies_) body.resume();
-  begun_ = 0;
-  for (const Body& body : bodies_) begun_ = std::max(begun_, body.begun);
   mix_density();
 }
 

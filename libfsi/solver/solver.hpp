@@ -119,7 +119,7 @@ class Solver {
   Real strain_dt(Real strain) const;
 
   /// Steps since the start, or since a solid was put in.
-  std::int64_t steps() const { return state_.step - begun_; }
+  std::int64_t steps() const { return state_.step - begun(); }
 
   /// The mesh.
   const Mesh& mesh() const { return mesh_; }
@@ -191,6 +191,8 @@ class Solver {
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
   void set_pressure_of_rest();
+  /// The step of the flow in which the last solid was put in.
+  std::int64_t begun() const;
   // The calls of a step: doc/theory/step.md. What each sets stands first.
   void hold_shape(Body& body);
   void advance_interface(Body& body, Real t);
@@ -352,7 +354,6 @@ class Solver {
   bool prescribed_ = false;  // whether all that flows in and out is given
   Real passed_ = 0;          // the most of it so far
   std::optional<Backup> backup_;
-  std::int64_t begun_ = 0;                          // the step at which the last solid was put in
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
   int tiny_steps_ = 0;                              // in a row
