@@ -96,19 +96,22 @@ Index nearest_image(const Mesh& mesh, const Vec3& x, const Vec3& about) {
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
               const Mesh& mesh, Real ahead) {
   // From a point inside, the mean over nearest images moves to the centroid in a few rounds.
-  constexpr int first_rounds = 8;
+  // Later the second one is about the new place: a solid almost as long as a period needs it.
+  constexpr int first_rounds = 8, rounds = 2;
   if (!tracker.started) tracker.home = point_inside(alpha, mesh), tracker.middle = middle(mesh);
   Moments sum;
-  for (int round = tracker.started ? 1 : first_rounds; round > 0; --round) {
+  for (int round = tracker.started ? rounds : first_rounds; round > 0; --round) {
     sum = moments(alpha, u, mesh, tracker.home);
     if (sum.volume == 0) return {0, tracker.home + tracker.travelled, {}};
     tracker.home += sum.arm / sum.volume;
     if (mesh.translation.size() == 1) break;
   }
+  const bool first = !tracker.started;
   tracker.started = true;
-  const Vec3 centroid = tracker.home + tracker.travelled;
   const Vec3 jump = mesh.translation[nearest_image(mesh, tracker.home, tracker.middle)];
-  tracker.home += jump, tracker.travelled -= jump;
+  tracker.home += jump;
+  if (!first) tracker.travelled -= jump;  // at first it is the image that lies in the mesh
+  const Vec3 centroid = tracker.home + tracker.travelled;
   Vec3 velocity = sum.momentum / sum.volume;
   if (ahead != 0) velocity += change_along(ahead * velocity, alpha, u, mesh) / sum.volume;
   return {sum.volume, centroid, velocity};

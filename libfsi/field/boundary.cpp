@@ -40,6 +40,18 @@ void require_sliding(const Wall& wall, const Patch& patch, const Mesh& mesh) {
               "own plane or along a cylinder's axis; give the velocity of its faces instead");
 }
 
+/// In two dimensions nothing moves out of the plane.
+void require_plane(const BoundaryField<Vec3>& u_b, const Mesh& mesh) {
+  for (const Patch& patch : mesh.patches) {
+    bool plane = true;
+    for (Index f = patch.begin; f < patch.end; ++f)
+      plane = plane && (mesh.dim == 3 || u_b[f - mesh.n_internal].z == 0);
+    require(all_of_ranks(plane), "the velocity of patch \"" + patch.name +
+                                     "\" has a part along z, but a mesh of two dimensions lies in "
+                                     "the x-y plane, and nothing moves out of it");
+  }
+}
+
 void require_passive(const Load& load, const std::string& patch) {
   require(load.proximal >= 0 && load.distal >= 0 && load.capacitance >= 0,
           "patch \"" + patch + "\": resistances and capacitance of a load must be >= 0");
@@ -90,6 +102,7 @@ std::vector<Condition> resolve(const Conditions& conditions, const Mesh& mesh) {
   set_shapes(result, mesh);
   BoundaryField<Vec3> u_b(mesh);
   set_boundary_velocity(u_b, CellField<Vec3>(mesh), result, 0, mesh);
+  require_plane(u_b, mesh);
   Real passed = 0, sum = 0;
   for (Index b = 0; b < mesh.n_boundary(); ++b) sum += norm2(u_b[b]);
   require(all_of_ranks(std::isfinite(sum)), "at t = 0 what is given at the patches is not finite");

@@ -175,11 +175,18 @@ bool Section::solve() {
 
 std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,
                                const std::vector<Patch>& free) {
-  std::array<Sum, 3> sums;
-  for (Index f = patch.begin; f < patch.end; ++f)
+  std::array<Sum, 4> sums;
+  for (Index f = patch.begin; f < patch.end; ++f) {
     for (int i = 0; i < 3; ++i) sums[i].add(mesh.Sf[f][i]);
+    sums[3].add(norm(mesh.Sf[f]));
+  }
   const Vec3 area{sums[0].total(), sums[1].total(), sums[2].total()};
   require(norm(area) > 0, "patch \"" + patch.name + "\" has no net area to flow through");
+  constexpr Real flat = 0.9;
+  require(norm(area) > flat * sums[3].total(),
+          "the faces of patch \"" + patch.name +
+              "\" look different ways, so its flow has no direction; give each opening a name of "
+              "its own");
   const Vec3 n = area / norm(area);
   std::vector<Real> w(static_cast<std::size_t>(patch.end - patch.begin), 1);
   if (profile == InflowProfile::parabola) {

@@ -56,10 +56,11 @@ void Openings::set_basis(One& opening) const {
   if (n == 0) return;
   const Vec3 area{total[0], total[1], total[2]},
       centre = Vec3{total[3], total[4], total[5]} / total[6];
-  constexpr Real flat = 1e-6;  // of the area: less is rounding
+  constexpr Real flat = 0.5;  // of the area, that of half a sphere
   require(norm(area) > flat * total[6],
           "the faces of the opening \"" + opening.patch.name +
-              "\" face all ways, so no direction is out: give each of its ends a name of its own");
+              "\" face different ways, so no direction is out: give each of its ends a name of "
+              "its own");
   opening.normal = area / norm(area);
   const Vec3 other = mesh_.dim == 2                     ? Vec3{0, 0, 1}
                      : std::abs(opening.normal.x) < 0.7 ? Vec3{1, 0, 0}

@@ -243,8 +243,8 @@ std::string Checkpoint::rejection_reason(const Hdf5File& file, const Snapshot& s
     return "is of another mesh: that one has " + std::to_string(cells) + " cells, this one " +
            std::to_string(mesh_.n_global) + ", or they differ in geometry, patches or periods";
   if (!file.attribute("/", "identity", identity) || identity != snapshot.identity())
-    return "is of another run: it says \"" + identity + "\", this run is \"" + snapshot.identity() +
-           "\"";
+    return "is of another run: it says \"" + identity + "\", and here it must be \"" +
+           snapshot.identity() + "\"";
   const std::string name = read_scalars(file, snapshot);
   return name.empty() ? "" : "holds no \"" + name + "\"";
 }

@@ -89,18 +89,9 @@ void Pieces::mark_crumbs(CellField<Real>& near, const CellField<Real>& alpha, in
   const auto small = [&](Index c) {
     return inside(alpha[c]) && std::ranges::find(large, number_[c], &Volume::number) == large.end();
   };
-  // A cell holds the count of rings that are left beyond it and itself.
   for (Index c = 0; c < mesh_.n_cells; ++c)
     if (small(c)) near[c] = 1 + rings;
-  for (int left = rings; left > 0; --left) {
-    for (Index c = 0; c < mesh_.n_owned; ++c)
-      if (near[c] == 0 && !inside(alpha[c]) &&
-          std::ranges::any_of(mesh_.cell_neighbours[c],
-                              [&](Index n) { return near[n] == 1 + left; }))
-        near[c] = left;
-    mesh_.halo.update(near);
-  }
-  for (Index c = 0; c < mesh_.n_cells; ++c) near[c] = near[c] > 0 ? 1 : 0;
+  spread_marks(near, rings, mesh_, [&](Index c) { return !inside(alpha[c]); });
 }
 
 }  // namespace fsi

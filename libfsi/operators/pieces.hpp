@@ -1,12 +1,29 @@
 #pragma once
 // The pieces that a solid is in.
 
+#include <algorithm>
 #include <vector>
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 
 namespace fsi {
+
+/// Collective. Marks with 1 + rings, on owned cells and halo, become 1. So do cells in `rings`
+/// rings of vertex neighbours around them for which open(c) holds. All others become 0.
+template <class Open>
+void spread_marks(CellField<Real>& marks, int rings, const Mesh& mesh, const Open& open) {
+  // A cell holds the count of rings that are left beyond it and itself.
+  for (int left = rings; left > 0; --left) {
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      if (marks[c] == 0 && open(c) && std::ranges::any_of(mesh.cell_neighbours[c], [&](Index n) {
+            return marks[n] == 1 + left;
+          }))
+        marks[c] = left;
+    mesh.halo.update(marks);
+  }
+  for (Index c = 0; c < mesh.n_cells; ++c) marks[c] = marks[c] > 0 ? 1 : 0;
+}
 
 /// The pieces of a solid: the sets of cells with alpha > 1/2 that are connected by their corners,
 /// also across a period.

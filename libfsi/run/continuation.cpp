@@ -127,6 +127,16 @@ void tell_of_changes(const std::string& sentence) {
   if (rank() == 0 && !sentence.empty()) std::fprintf(stderr, "fsi: notice: %s\n", sentence.c_str());
 }
 
+void tell_of_start(const State& state, Real end, const std::string& file) {
+  require(state.t <= end * (1 + 1e-12),
+          print("option -time_end: %g, but the checkpoint from which the run goes on is of t = %g; "
+                "give a later end",
+                end, state.t));
+  if (rank() != 0) return;
+  std::printf("going on from t = %g, step %lld (%s)\n", state.t, static_cast<long long>(state.step),
+              file.c_str());
+}
+
 void require_same_solids(const Solver& solver, std::size_t before) {
   const std::size_t now = solver.bodies().size();
   require(now >= before,

@@ -35,6 +35,10 @@ std::string changes_of_flow(const Solver& solver, const Case& setup, const std::
 /// Prints such a sentence, if it is not empty, as a notice.
 void tell_of_changes(const std::string& sentence);
 
+/// Prints from where a run goes on; file: its checkpoint. Errors: Error{input} if the checkpoint is
+/// of a time behind the end of the run.
+void tell_of_start(const State& state, Real end, const std::string& file);
+
 /// Tables, fields and checkpoints are of the `before` solids that were there at the start. Errors:
 /// Error{input} if the solver has another number of them.
 void require_same_solids(const Solver& solver, std::size_t before);

@@ -128,10 +128,8 @@ void Output::go_on_from_checkpoint() {
   saved_step_ = solver_.state().step;
   samples_.resume(solver_.state().t, samples_text_);
   for (Schedule* event : {&field_, &checkpoint_}) event->resume(solver_.state().t);
+  tell_of_start(solver_.state(), case_.time.end, checkpoints_.file());
   tell_of_changes(notice);
-  if (rank() != 0) return;
-  std::printf("going on from t = %g, step %lld (%s)\n", solver_.state().t,
-              static_cast<long long>(solver_.state().step), checkpoints_.file().c_str());
 }
 
 io::Snapshot Output::snapshot() {

@@ -253,7 +253,10 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   Vec3 middle = tracker_.home;  // of the whole solid
   for (const geometry::Mirror& mirror : mirrors) middle = mirror.foot(middle);
   const analysis::Orientation o = analysis::orientation(whole, middle, orientation_);
-  turned_ += analysis::turn_about_z(orientation_.n, o.n);
+  // The axis of revolution is the direction apart from the other two: the longest of a rod.
+  if (rod_ < 0) rod_ = mesh.dim == 3 && o.value[2] - o.value[1] > o.value[1] - o.value[0] ? 1 : 0;
+  turned_ += rod_ == 1 ? analysis::turn_about_z(orientation_.longest, o.longest)
+                       : analysis::turn_about_z(orientation_.n, o.n);
   orientation_ = o;
   CellField<SymTensor> B = B_field(body, mesh);
   const analysis::Health h = analysis::health(B, body.alpha, mesh);
@@ -310,6 +313,7 @@ void SolidRecord::list(io::Snapshot& snapshot, const std::string& name) {
   add_vector("zeta", zeta_);
   snapshot.add(of + "tracker_started", &started_);
   snapshot.add(of + "turned", &turned_);
+  snapshot.add_optional(of + "rod", &rod_);
   snapshot.add(of + "volume_0", &volume_0_);
   snapshot.add(of + "drift", &drift_);
 }

@@ -71,7 +71,8 @@ class SolidRecord {
   std::int64_t started_ = 0;  // of the tracker, as a checkpoint holds it
   analysis::Orientation orientation_;
   Vec3 zeta_;
-  Real turned_ = 0;  // degrees about z
+  std::int64_t rod_ = -1;  ///< 1: its axis of revolution is the longest; -1: not known yet
+  Real turned_ = 0;        // degrees about z
   Real volume_0_ = 0, drift_ = 0;
   Soundness soundness_;
 };

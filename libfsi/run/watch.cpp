@@ -205,7 +205,8 @@ void Watch::taken_back(const StepReport& report, std::int64_t steps, const Limit
   constexpr std::int64_t few = 20, part = 10;  // one in ten
   std::int64_t count = 0;
   for (const auto& [reason, number] : report.rejections) count += number;
-  if (told_of_steps_ || count < few || count * part < steps) return;
+  const bool fixed = asked.name == "fixed";
+  if (told_of_steps_ || count < (fixed ? 1 : few) || (!fixed && count * part < steps)) return;
   told_of_steps_ = true;
   const auto of_reason = [](const auto& entry) { return entry.second; };
   const auto most = std::ranges::max_element(report.rejections, {}, of_reason);
@@ -213,7 +214,7 @@ void Watch::taken_back(const StepReport& report, std::int64_t steps, const Limit
       print("%lld attempts at a step failed in %lld steps and were made again, shorter: ",
             static_cast<long long>(count), static_cast<long long>(steps)) +
       most->first;
-  if (asked.name == "fixed")
+  if (fixed)
     text += print("; -time_step %.4g is too long, a shorter one, or none, costs less", asked.dt);
   say("notice", text);
 }
@@ -290,9 +291,12 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
       std::min(of_solid * body.G * body.filled.volume,
                std::max(of_stored * energy.largest(), of_work * std::abs(energy.work())));
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
+  const Real off = std::abs(sound.elastic_energy - sound.shape_energy);
+  // They may part at the start and again later. One that stays apart is told once.
+  if (off < apart / 2 * larger) said.forgetful = false;
   // A solid that leaves has no shape to compare with.
   if (body.map() != nullptr && !leaves(body) && !said.forgetful && larger > matters &&
-      std::abs(sound.elastic_energy - sound.shape_energy) > apart * larger) {
+      off > apart * larger) {
     said.forgetful = true;
     say("warning", at + "the stress of the " + name_of(body) +
                        print(" holds an energy of %.3g, its shape one of %.3g",

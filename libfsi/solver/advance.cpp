@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "libfsi/core/clock.hpp"
 #include "libfsi/core/error.hpp"
@@ -86,11 +87,12 @@ void Solver::keep_backup() {
 }
 
 bool Solver::stuck(Real dt) {
-  constexpr Real tiny = 1e-6;  // of the largest step
-  constexpr int most = 100;    // such steps in a row; a single one may end at an event
+  constexpr Real tiny = 1e-6;       // of the largest step
+  constexpr int most = 100;         // such steps in a row; a single one may end at an event
+  constexpr Real rounding = 1e-12;  // of the time: no step ends at an event that near
   dt_largest_ = std::max(dt_largest_, dt);
   tiny_steps_ = dt < tiny * dt_largest_ ? tiny_steps_ + 1 : 0;
-  return tiny_steps_ > most;
+  return tiny_steps_ > most || dt < rounding * state_.t;
 }
 
 Solver::Calls::Calls(Profile& profile)
@@ -151,7 +153,13 @@ void Solver::at_one_time(const std::function<void()>& use) {
   take_back();
 }
 
-void Solver::require_step(Real dt) const {
+void Solver::require_step(Real dt) {
+  require_length(dt);
+  if (!balanced(state_.t + dt))
+    throw Error(ErrorKind::numerics, std::exchange(report_.failure, ""));
+}
+
+void Solver::require_length(Real dt) const {
   require_bodies();
   if (dt > 0 && std::isfinite(dt)) return;  // the message is made in case of an error only
   throw Error(
@@ -181,7 +189,8 @@ bool Solver::balanced(Real t) {
 }
 
 Real Solver::advance(Real dt) {
-  require_step(dt);
+  require_length(dt);
+  if (!report_.failure.empty()) throw Error(ErrorKind::numerics, report_.failure);
   if (!balanced(state_.t + dt)) return 0;
   keep_backup();
   dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());

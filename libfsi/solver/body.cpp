@@ -66,7 +66,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       held(solid.memory && solid.kinematics != KinematicsKind::left_cauchy_green),
       hold_scratch(mesh),
       pieces(mesh),
-      crumbs(mesh),
+      left_out(mesh),
       mirror{mirrors.empty() ? std::vector<char>{} : on_faces(mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
@@ -88,12 +88,26 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   resume();
 }
 
+// In a cell with a corner of the solid the plane may reach a wall that the solid does not. Where
+// the wall is curved, the solid may reach the corners of a face but not its centre.
 std::vector<char> Body::bonded(const std::vector<Patch>& patches) const {
+  constexpr Real touching = 1e-3;  // of a cell
+  const auto reached = [&](const Vec3& x, Real within) {
+    return std::ranges::any_of(mesh.translation, [&](const Vec3& lap) {
+      return shape(x + lap) < within || shape(x - lap) < within;
+    });
+  };
+  const auto at_face = [&](Index f) {
+    const Real within = touching * cell_size(mesh, mesh.owner[f]);
+    return reached(mesh.Cf[f], within) || std::ranges::any_of(mesh.face_points[f], [&](Index p) {
+             return reached(mesh.points[p], within);
+           });
+  };
   std::vector<char> is(static_cast<std::size_t>(mesh.n_boundary()), 0);
   for (const Patch& patch : patches)
     for (Index f = patch.begin; f < patch.end; ++f)
-      is[f - mesh.n_internal] =
-          alpha[mesh.owner[f]] >= solid::alpha_known && vof::touches(f, alpha, interface, mesh);
+      is[f - mesh.n_internal] = alpha[mesh.owner[f]] >= solid::alpha_known &&
+                                vof::touches(f, alpha, interface, mesh) && at_face(f);
   return is;
 }
 
@@ -186,13 +200,19 @@ void Body::hold_shape() {
   // Around a crumb that was torn off the map tells that the solid goes on. There the rule would
   // build the whole solid anew.
   pieces.find(alpha);
-  if (pieces.several()) pieces.mark_crumbs(crumbs, alpha, solid::Rings::count);
+  if (pieces.several()) pieces.mark_crumbs(left_out, alpha, solid::Rings::count);
   trust.clear();
   for (const Index c : m.cells())
-    trust.push_back(pieces.several() && crumbs[c] > 0 ? 0 : m.trust(c));
-  shape_moved = vof::hold_shape(
-      alpha, {.shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust},
-      mesh, hold_scratch);
+    trust.push_back(pieces.several() && left_out[c] > 0 ? 0 : m.trust(c));
+  const vof::ShapeMap shape_map{
+      .shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust};
+  // It would do so where an opening has cut the solid, too.
+  if (volume_out > 0) {
+    vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count);
+    for (std::size_t i = 0; i < trust.size(); ++i)
+      if (left_out[m.cells()[i]] > 0) trust[i] = 0;
+  }
+  shape_moved = vof::hold_shape(alpha, shape_map, mesh, hold_scratch);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
 }
 

@@ -100,11 +100,11 @@ Real kinetic_energy(const Solver& solver) {
 }
 
 void EnergyBalance::set_powers_and_stored(const Solver& solver) {
-  std::array<Sum, 5> sums;
-  auto& [of_flow, of_step, force, kinetic, elastic] = sums;
+  std::array<Sum, 6> sums;
+  auto& [of_flow, of_step, force, kinetic, elastic, of_turning] = sums;
   add_power_of_force(of_flow, force, solver);
   add_power_of_weight(of_step, force, solver);
-  add_power_of_boundary(of_flow, of_step, solver);
+  add_power_of_boundary(of_flow, of_step, of_turning, solver);
   add_power_of_parabola(of_flow, solver);
   add_kinetic_energy(kinetic, solver);
   Real of_drifting = 0;
@@ -113,12 +113,12 @@ void EnergyBalance::set_powers_and_stored(const Solver& solver) {
       of_drifting += elastic_energy(body);
     else
       body.law.add_energy(elastic, body.G, body.B, body.alpha, solver.mesh());
-  std::array<Real, 5> totals{};
+  std::array<Real, 6> totals{};
   Sum::totals(totals, sums);
   if (!std::isfinite(totals[2]))
     throw Error(ErrorKind::numerics,
                 print("the body force is not finite at t = %.8g", solver.state().t));
-  power_of_flow_ = totals[0], power_of_step_ = totals[1];
+  power_of_flow_ = totals[0], power_of_step_ = totals[1], power_of_turning_ = totals[5];
   power_of_step_ +=
       solver.driving_gradient() * (through_old_ + through_) / 2 * solver.mesh().total_volume;
   kinetic_ = totals[3], elastic_ = totals[4] + of_drifting;
@@ -129,7 +129,23 @@ void EnergyBalance::set_powers_and_stored(const Solver& solver) {
     resolved_ += energy_rounding * body.G * body.filled.volume;
 }
 
-void EnergyBalance::add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solver& solver) {
+Real EnergyBalance::power_of_turning(const Solver& solver, Index f) const {
+  const Mesh& mesh = solver.mesh();
+  const GradientStencil& stencil = solver.u_stencil();
+  const CellField<Vec3>& u = solver.state().u;
+  const Index P = mesh.owner[f];
+  Tensor L;
+  for (const Index k : mesh.cell_faces[P]) {
+    const Index n = beyond(mesh, k, P);
+    if (n < 0 && stencil.given[k - mesh.n_internal] == 0) continue;
+    const Vec3 rise = (n >= 0 ? u[n] : u_b_[k - mesh.n_internal]) - u[P];
+    L += outer(rise, stencil.weight(k, mesh.owner[k] == P));
+  }
+  return solver.mu()[f] * dot(dot(transpose(L), mesh.Sf[f]), u_b_[f - mesh.n_internal]);
+}
+
+void EnergyBalance::add_power_of_boundary(Sum& of_flow, Sum& of_step, Sum& of_turning,
+                                          const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const State& state = solver.state();
   const FaceWeights& weights = solver.weights();
@@ -137,6 +153,7 @@ void EnergyBalance::add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solv
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const bool open = fixes_pressure(solver.conditions()[i]);
     const bool slips = lets_slip(solver.conditions()[i]);
+    const bool given = prescribes_flow(solver.conditions()[i]);
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal, P = mesh.owner[f];
       const Vec3 u = open ? state.u[P] : u_b_[b];
@@ -148,6 +165,11 @@ void EnergyBalance::add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solv
       if (open || slips) continue;
       const Vec3 mean = 0.5 * (u_b_old_[b] + u);
       of_flow.add(solver.mu()[f] * weights.g[f] * dot(u - state.u[P], u));
+      if (given) {
+        of_turning.add(power_of_turning(solver, f));
+        if (const Index k = weights.place[f]; k >= 0)
+          of_flow.add(solver.mu()[f] * dot(dot(solver.L_f()[k], weights.k[f]), u));
+      }
       for (const Body& body : solver.bodies()) {
         if (body.alpha[P] <= 0) continue;
         const Vec3& S = mesh.Sf[f];
@@ -202,12 +224,13 @@ void EnergyBalance::add_power_of_parabola(Sum& sum, const Solver& solver) const 
 
 // Stress and pressure of a step are those of its middle, so R is taken there.
 void EnergyBalance::add(const Solver& solver, Real dt) {
-  const Real before = power_of_flow_, kinetic = kinetic_;
+  const Real before = power_of_flow_, kinetic = kinetic_, turned = power_of_turning_;
   set_velocities(solver);
   set_powers_and_stored(solver);
   power_ = (before + power_of_flow_) / 2 + power_of_step_;
   const Real rest = (kinetic + kinetic_) / 2 + elastic_ - (work_ + dt * power_ / 2);
   work_ += dt * power_;
+  turning_ += dt * (turned + power_of_turning_) / 2;
   done_ += dt * std::abs(power_);
   largest_ = std::max({largest_, stored_, resolved_});
   least_ = ++steps_ <= start ? rest : std::min(least_, rest);
@@ -228,6 +251,7 @@ void EnergyBalance::list(io::Snapshot& snapshot) {
   snapshot.add("energy_done", &done_);
   snapshot.add("energy_power", &power_of_flow_);
   snapshot.add("energy_made", &made_);
+  snapshot.add_optional("energy_turning", &turning_);
   snapshot.add("energy_steps", &steps_);
 }
 

@@ -24,16 +24,22 @@ Real kinetic_energy(const Solver& solver);
 /// the scheme, however much viscosity took before:
 ///
 ///   R = E - W,  made = max over t > s > t_0 of R(t) - R(s),  at least 0
-///   dW/dt = sum_b {mu (g (u_b - u_P) + e_b) . u_b + alpha_b (tau . S) . u_b -
+///   dW/dt = sum_b {mu (g (u_b - u_P) + L_b . k + e_b) . u_b + alpha_b (tau . S) . u_b -
 ///                  (p_b + rho |u_b|^2 / 2) phi}
 ///           + integral (S + f) . u + sum_i alpha_i {rho_i a_i + (rho_i - rho) g} . u
 ///
-/// b are the boundary faces, S and phi outward, e_b the excess of a flat wall (WallParabola). The
-/// viscous and elastic part is there if the velocity is given. p, p_b, S, tau
+/// b are the boundary faces, S and phi outward, k = S - g d, e_b the excess of a flat wall
+/// (WallParabola). L_b . k is there where a velocity or a flow rate is given, the other viscous and
+/// the elastic part at walls too. p, p_b, S, tau
 /// and alpha of a step are those of its middle: they take the mean of the old and the new u and
 /// phi, the other terms the mean of both powers. R is taken at the middle of the step, with the
 /// mean of both kinetic energies. t_0 is the end of the first twenty steps, since a flow that
 /// starts from an impulse is not judged.
+///
+/// This is the work against the viscous stress mu grad u of the momentum equation, which takes
+/// mu |grad u|^2. The work of the whole stress, and 2 mu D : D, are larger by
+///   integral mu div(u . grad u) = sum_b mu (L_P^T . S) . u_b,
+/// where a velocity or a flow rate is given; at walls and openings it counts as 0.
 class EnergyBalance {
  public:
   static constexpr int start = 20;  ///< steps that are not judged
@@ -50,12 +56,12 @@ class EnergyBalance {
 
   /// E: kinetic and elastic energy.
   Real stored() const { return stored_; }
-  /// dW/dt, mean of the last step.
-  Real power() const { return power_; }
+  /// The power of that work: dW/dt in the mean of the last step, and what is added at its end.
+  Real power() const { return power_ + power_of_turning_; }
   /// The largest E so far, or what is rounding if that is more.
   Real largest() const { return largest_; }
-  /// W: the work done.
-  Real work() const { return work_; }
+  /// The work done by the whole stress: W and what is added above.
+  Real work() const { return work_ + turning_; }
   /// What the scheme has made, as above.
   Real made() const { return made_; }
   /// `made` in parts of the largest stored energy and of the work, the figure by which a run is
@@ -72,18 +78,21 @@ class EnergyBalance {
   void set_velocities(const Solver& solver);
   void keep_velocities(const Solver& solver);
   void set_powers_and_stored(const Solver& solver);
+  /// mu (L_P^T . S) . u_b of boundary face f.
+  Real power_of_turning(const Solver& solver, Index f) const;
   static void add_power_of_force(Sum& power, Sum& force, const Solver& solver);
   void add_power_of_weight(Sum& power, Sum& force, const Solver& solver) const;
-  void add_power_of_boundary(Sum& of_flow, Sum& of_step, const Solver& solver);
+  void add_power_of_boundary(Sum& of_flow, Sum& of_step, Sum& of_turning, const Solver& solver);
   /// What the parabola of the walls adds to mu g (u_b - u_P) . u_b.
   void add_power_of_parabola(Sum& sum, const Solver& solver) const;
 
-  BoundaryField<Vec3> u_b_, u_b_old_;     // now, and after the step before
-  BoundaryField<Real> phi_b_old_;         // its flux
-  std::optional<CellField<Vec3>> u_old_;  // where a solid has a weight
-  Real through_ = 0, through_old_ = 0;    // mean velocity, where it is held
-  Real power_of_flow_ = 0;                // of what belongs to the flow's time
-  Real power_of_step_ = 0;                // of what belongs to the middle of the last step
+  BoundaryField<Vec3> u_b_, u_b_old_;        // now, and after the step before
+  BoundaryField<Real> phi_b_old_;            // its flux
+  std::optional<CellField<Vec3>> u_old_;     // where a solid has a weight
+  Real through_ = 0, through_old_ = 0;       // mean velocity, where it is held
+  Real power_of_flow_ = 0;                   // of what belongs to the flow's time
+  Real power_of_step_ = 0;                   // of what belongs to the middle of the last step
+  Real power_of_turning_ = 0, turning_ = 0;  // of mu (L_P^T . S) . u_b, and its work
   Real kinetic_ = 0, elastic_ = 0;
   Real least_ = 0, stored_ = 0, largest_ = 0, work_ = 0, done_ = 0, power_ = 0, made_ = 0;
   Real resolved_ = 0;  // below it energies are rounding

@@ -50,6 +50,13 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
           which + " sticks out of the mesh, whose boundary reaches " +
               print("%.4g", -body.filled.clearance) + " deep into it: move it or make it smaller" +
               sizes);
+  constexpr Real rounding = 1e-6;
+  require(
+      body.filled.steepest <= 1 + rounding,
+      which + print(": the value of its shape changes by up to %.4g times the way between cells "
+                    "at its surface, and a signed distance by no more than the way; divide it "
+                    "by the largest slope that it has",
+                    body.filled.steepest));
   require(!body.filled.overlaps_itself,
           which +
               " is longer than a period of the mesh and overlaps its own image: make it smaller, "

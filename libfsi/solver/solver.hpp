@@ -69,15 +69,17 @@ class Solver {
   void put_solid(const Solid& solid);
 
   /// Collective. From t to t + dt. Errors: Error{numerics}; the state is then undefined.
-  /// Error{input} where dt is not above 0 and finite, or a body was taken out of `bodies`; nothing
-  /// is changed.
+  /// Error{numerics} where the patches prescribe more or less inflow than outflow at t + dt;
+  /// nothing is changed. Error{input} where dt is not above 0 and finite, or a body was taken out
+  /// of `bodies`; nothing is changed.
   void step(Real dt);
 
   /// Collective. A step of dt or, where that fails, of a half, a quarter ... of it from the same
   /// state, with at most eight halvings. A step fails when it throws or when what it leaves behind
   /// is out of bounds (advance.cpp); the steps after it grow by a tenth each. Returns the length
   /// taken; 0 when all failed: report().failure then says why and the state is that before the
-  /// step. Errors: Error{input} as those of `step`.
+  /// step. Errors: Error{input} as those of `step`; Error{numerics} where report().failure is set
+  /// already, so a loop that does not look at what is returned ends.
   Real advance(Real dt);
 
   /// Collective. Brings a solid that stands between two steps to the state's time. The next step
@@ -157,8 +159,12 @@ class Solver {
   const CellField<Vec3>& pressure_gradient() const { return grad_p_; }
   /// Viscosity at the faces, of the last step.
   const FaceField<Real>& mu() const { return mu_; }
+  /// Velocity gradient at the irregular faces (FaceWeights::place), of the start of the last step.
+  const std::vector<Tensor>& L_f() const { return L_f_; }
   /// Weights of the faces.
   const FaceWeights& weights() const { return weights_; }
+  /// Weights of the velocity's gradient.
+  const GradientStencil& u_stencil() const { return u_stencil_; }
   /// The velocity's derivative at the walls, of the last step.
   const flow::WallParabola& wall_parabola() const { return wall_parabola_; }
   /// Force per volume on fluid and solid; empty where there is none.
@@ -182,8 +188,11 @@ class Solver {
  private:
   /// Errors: Error{input} where `bodies` is not what was put in.
   void require_bodies() const;
-  /// Errors: Error{input} where that is no step.
-  void require_step(Real dt) const;
+  /// Errors: Error{input} where that is no length of a step.
+  void require_length(Real dt) const;
+  /// Collective. Errors: those of `require_length`; Error{numerics} where not `balanced` at its
+  /// end.
+  void require_step(Real dt);
   /// Collective. Errors: Error{input} where the velocity to start from is not finite.
   void require_finite(const CellField<Vec3>& u_0) const;
   /// Collective. Whether as much flows in as out at t; else says in the report why not.

@@ -228,6 +228,17 @@ Parts parts_of(const Mesh& mesh, Index c, const Images& distance, const FillAccu
   return parts;
 }
 
+/// Largest slope of f between the centres of neighbours, where the surface passes within such a
+/// distance of one of them.
+Real steepest(const CellField<Real>& f, const Mesh& mesh) {
+  Real most = 0;
+  for (Index i = 0; i < mesh.n_internal; ++i) {
+    const Real a = f[mesh.owner[i]], b = f[mesh.neighbour[i]], rise = std::abs(a - b);
+    if (std::min(std::abs(a), std::abs(b)) <= rise) most = std::max(most, rise / norm(mesh.d[i]));
+  }
+  return global_max(most);
+}
+
 /// Radius about C that holds the whole cell.
 Real radius(const Mesh& mesh, Index c) {
   Real square = 0;
@@ -259,10 +270,12 @@ Real clearance(const Mesh& mesh, Images& distance, const std::vector<Patch>& mir
 Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
             const std::vector<Patch>& mirrors, const FillAccuracy& accuracy) {
   Images distance(mesh, shape);
+  CellField<Real> at_centres(mesh);
   std::array<Sum, 4> sums;  // volume; change: of smooth parts, its square, of bent parts
   for (Index c = 0; c < mesh.n_owned; ++c) {
     const Real reach = radius(mesh, c);
     const Real at_centre = distance.select(mesh.C[c], reach);
+    at_centres[c] = at_centre;
     alpha[c] = at_centre < 0 ? 1 : 0;
     if (at_centre >= -reach && !distance.near.empty()) {
       const Parts parts = parts_of(mesh, c, distance, accuracy);
@@ -273,6 +286,7 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
     sums[0].add(alpha[c] * mesh.V[c]);
   }
   mesh.halo.update(alpha);
+  mesh.halo.update(at_centres);
   std::array<Real, 4> totals{};
   Sum::totals(totals, sums);
   const Real error = std::abs(totals[1]) + std::sqrt(totals[2]) + totals[3];
@@ -282,6 +296,7 @@ Filled fill(CellField<Real>& alpha, const Mesh& mesh, const Shape& shape,
   return {.volume = totals[0],
           .estimated_error = error,
           .clearance = clearance(mesh, distance, mirrors),
+          .steepest = steepest(at_centres, mesh),
           .cut_by = cutting_planes(at, mesh, mirrors),
           .overlaps_itself = overlap,
           .touches_itself = touch};

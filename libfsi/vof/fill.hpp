@@ -30,6 +30,9 @@ struct Filled {
   /// `mirrors`. It is the distance of the solid from the boundary. It is negative if the solid
   /// sticks out of the mesh, so that `volume` misses a part of it.
   Real clearance = 0;
+  /// Largest |f(a) - f(b)| / |a - b| of the shape between the centres of cells beside each other,
+  /// of those near the surface: above 1 the shape is no distance, and `volume` is wrong.
+  Real steepest = 0;
   /// The planes of `mirrors` that cut the solid. The whole solid is its part in the mesh and the
   /// images of this part.
   CuttingPlanes cut_by{};

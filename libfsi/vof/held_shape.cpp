@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/pieces.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
@@ -120,6 +121,20 @@ Real set_change_of_no_volume(const CellField<Real>& alpha, Real volume, const Me
 }
 
 }  // namespace
+
+void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMap& map,
+              const Mesh& mesh, int rings) {
+  constexpr Real half = 0.5, deep = 1.2;  // of solid; cells
+  near.fill(0);
+  Vec3 laps;
+  for (const Index c : map.cells) {
+    if (alpha[c] >= half) continue;
+    Vec3 xi = mesh.C[c] + map.d[c];
+    if (nearest_image(xi, laps, map.shape, mesh) < -deep * cell_size(mesh, c)) near[c] = 1 + rings;
+  }
+  mesh.halo.update(near);
+  spread_marks(near, rings, mesh, [](Index) { return true; });
+}
 
 Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
   list_planes(map, alpha, mesh, s);

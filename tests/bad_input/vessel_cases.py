@@ -47,7 +47,7 @@ def cases(Case):
              damage=f.renamed("left", "left side")),
         case("patches that differ by capitals", yaml(), "\"left\" and \"Left\"", "capitals",
              damage=f.renamed("right", "Left")),
-        case("both ends in one opening", yaml(left="{type: pressure}", right=None), "\"left\" face all ways",
+        case("both ends in one opening", yaml(left="{type: pressure}", right=None), "\"left\" face different ways",
              "a name of its own", damage=f.renamed("right", "left")),
         case("path from a patch to itself", yaml("solid: {shape: sphere, path: [left, left]}"), "-solid_path",
              "two different patches"),

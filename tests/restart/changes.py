@@ -28,7 +28,7 @@ def main():
                    stdout=subprocess.DEVNULL)
     end = 0.0
 
-    def go_on(*options, code=0, restart=True):
+    def go_on(*options, code=0, restart=True, to=None):
         """One more piece of the run; the lines on standard error."""
         nonlocal end
         end += 0.1
@@ -36,7 +36,7 @@ def main():
             [os.path.join(drivers, "fsi-cavity"), os.path.join(source, "examples",
                                                                "cavity_disc.yaml"),
              "-mesh", mesh, "-output_dir", out, "-output_interval", "0", "-checkpoint_interval", "1",
-             "-time_end", str(end), *(["-restart"] if restart else []), *options],
+             "-time_end", str(to or end), *(["-restart"] if restart else []), *options],
             stdin=subprocess.DEVNULL, capture_output=True, text=True)
         check(done.returncode == code, f"exit code {done.returncode} with {options}")
         return done.stderr.splitlines()
@@ -68,6 +68,9 @@ def main():
                  "-solid_law gent (was neo_hookean)", "-solid_law_limit 20 (was not given)")
     check_notice(go_on(*changed, "-solid_law", "gent", "-solid_law_limit", "10"),
                  "-solid_law_limit 10 (was 20)")
+    refused = go_on(*changed, code=2, to=0.05)
+    check(len(refused) == 1 and "option -time_end: 0.05, but the checkpoint" in refused[0],
+          f"an end before the checkpoint is refused: {refused}")
     for other in ("left_cauchy_green", "reference_map"):
         refused = go_on(*changed, "-solid_kinematics", other, code=2)
         check(len(refused) == 1 and "kinematics=log_conformation" in refused[0] and

@@ -12,6 +12,34 @@
 namespace fsi {
 namespace {
 
+// An egg and a disc in a flow that turns as a whole. All directions across the egg are equally
+// short.
+TEST(Turned, FollowsTheAxisOfRevolution) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 8}, .length = {1, 1, 0.4}});
+  const auto turning = [](const Vec3& x, Real = 0) { return Vec3{0.5 - x.y, x.x - 0.5, 0}; };
+  const FixedVelocity given{turning};
+  for (const Vec3& axes : {Vec3{0.3, 0.12, 0.12}, Vec3{0.1, 0.3, 0.15}}) {
+    Solver solver(mesh, {.rho = 1, .mu_f = 1},
+                  {.conditions = {{"left", given},
+                                  {"right", given},
+                                  {"bottom", given},
+                                  {"top", given},
+                                  {"back", given},
+                                  {"front", given}}});
+    solver.start(turning);
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::ellipsoid(axes), {0.5, 0.5, 0.2}), .G = 1, .mu = 1});
+    SolidRecord record(false);
+    Real turned = 0;
+    while (solver.state().t < 1.1) {
+      ASSERT_GT(solver.advance(0.05), 0) << solver.report().failure;
+      for (const Entry& entry : record.row(solver, *solver.body()))
+        if (entry.name == "turned") turned = entry.value;
+    }
+    EXPECT_NEAR(turned, (solver.state().t - 0.05) * 180 / std::acos(-1.0), 2);
+  }
+}
+
 // With 2.4 cells in the radius an isosurface of alpha loses 4 % of a disc's and 18 % of a sphere's.
 TEST(SurfaceArea, OfASmallBody) {
   const Real pi = std::acos(-1.0), r = 0.15;

@@ -56,6 +56,35 @@ TEST(EnergyBalance, TheWorkOfAForceIsStored) {
   EXPECT_TRUE(energy.started());
 }
 
+// u = (x, -y) and a rotation, given all around: the power is what viscosity takes, 4 mu and 0 per
+// area, on meshes whose boundary faces are oblique to the cells, too.
+TEST(EnergyBalance, ThePowerOfGivenVelocitiesIsWhatViscosityTakes) {
+  for (const bool simplex : {false, true})
+    for (const Real sheared : {0.0, 0.5, -1.0}) {
+      const Mesh mesh =
+          test::read_box({.n = {12, 12, 0}, .simplex = simplex, .moved = [=](const Vec3& x) {
+                            return x + Vec3{sheared * x.y, 0, 0};
+                          }});
+      for (const bool turns : {false, true}) {
+        const auto flow = [turns](const Vec3& x, Real) {
+          return turns ? Vec3{x.y, -x.x, 0} : Vec3{x.x, -x.y, 0};
+        };
+        const FixedVelocity given{flow};
+        Solver solver(
+            mesh, {.rho = 1, .mu_f = 1},
+            {.conditions = {{"left", given}, {"right", given}, {"bottom", given}, {"top", given}}});
+        solver.start([&](const Vec3& x) { return flow(x, 0); });
+        EnergyBalance energy(solver);
+        for (int i = 0; i < 30; ++i) solver.step(0.01), energy.add(solver, 0.01);
+        const Real before = energy.work();
+        for (int i = 0; i < 10; ++i) solver.step(0.01), energy.add(solver, 0.01);
+        const Real exact = turns ? 0 : 4;
+        EXPECT_NEAR((energy.work() - before) / 0.1, exact, 0.02) << simplex << sheared;
+        EXPECT_NEAR(energy.power(), exact, 0.02) << simplex << sheared;
+      }
+    }
+}
+
 // The pressure bears a uniform force in a closed box. What a step leaves of it in cells at walls is
 // no energy that came from nothing, and the force does no work.
 // The steps take the force at their middles; the balance takes it at their ends, too.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
@@ -140,6 +142,44 @@ TEST(Mirror, HalfADiscOnAPlaneOfSymmetryMovesAsTheWhole) {
   const auto whole = run(32, 1, 0.5, false), half = run(32, 0.5, 0, true);
   EXPECT_NEAR(half[0], whole[0], 1e-3);
   EXPECT_NEAR(half[1], whole[1], 1e-3);
+}
+
+// The flow turns back while an opening has cut the disc. The map tells of a whole one. Held to it,
+// the rest would become a smaller disc.
+TEST(Leaving, WhatAnOpeningHasCutComesBackAsItIs) {
+  const Mesh mesh = test::read_box({.n = {36, 24, 0}, .length = {1.5, 1, 1}});
+  std::array<Vec3, 2> square, first;
+  for (const bool memory : {false, true}) {
+    const auto wind = [](const Vec3&, Real t) { return Vec3{t < 0.25 ? 1.0 : -1.0, 0, 0}; };
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
+                  {.conditions = {{"left", FixedVelocity{wind}},
+                                  {"right", Opening{0}},
+                                  {"bottom", Slip{}},
+                                  {"top", Slip{}}}});
+    solver.start([](const Vec3&) { return Vec3{1, 0, 0}; });
+    solver.put_solid({.shape = shapes::translate(shapes::sphere(0.25), {1.25, 0.5, 0}),
+                      .G = 1,
+                      .mu = 0.1,
+                      .memory = memory});
+    while (solver.state().t < 0.8) ASSERT_GT(solver.advance(0.01), 0) << solver.report().failure;
+    EXPECT_LT(solver.body()->shape_moved, 0.01);
+    const Vec3 middle{0, 0.5, 0};
+    std::array<Sum, 5> sums;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const Real part = mesh.V[c] * solver.body()->alpha[c];
+      const Vec3 r = mesh.C[c] - middle;
+      sums[0].add(part), sums[1].add(part * r.x), sums[2].add(part * r.y);
+      sums[3].add(part * r.x * r.x), sums[4].add(part * r.y * r.y);
+    }
+    const Real V = sums[0].total();
+    first[memory] = Vec3{sums[1].total() / V, sums[2].total() / V, 0};
+    square[memory] = Vec3{sums[3].total() / V, sums[4].total() / V, 0};
+    square[memory].x -= first[memory].x * first[memory].x;
+  }
+  EXPECT_NEAR(first[1].x, first[0].x, 0.01);
+  // Half a disc is about half as thick along x as along y.
+  EXPECT_LT(square[0].x, 0.6 * square[0].y);
+  EXPECT_NEAR(square[1].x / square[1].y, square[0].x / square[0].y, 0.05);
 }
 
 TEST(Mirror, ASolidMayTouchAWallButNotStickOut) {

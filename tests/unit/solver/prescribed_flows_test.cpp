@@ -27,7 +27,11 @@ std::string fault(const Condition& left, const Condition& right) {
         {.conditions = {{"left", left}, {"right", right}, {"bottom", Slip{}}, {"top", Slip{}}}});
     solver.start([](const Vec3&) { return Vec3{}; });
     while (solver.state().t < 1)
-      if (solver.advance(0.1) == 0) return solver.report().failure;
+      if (solver.advance(0.1) == 0) {
+        // So a loop that does not look at the 0 ends, too.
+        EXPECT_THROW(solver.advance(0.1), Error);
+        return solver.report().failure;
+      }
     return "";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);

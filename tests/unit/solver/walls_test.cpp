@@ -47,6 +47,26 @@ TEST(Walls, MayNotMoveThroughThemselves) {
             std::string::npos);
 }
 
+TEST(Walls, AndVelocitiesStayInThePlane) {
+  const std::string of_wall = complaint(wavy(0), lid({1, 0, 0.5}));
+  EXPECT_NE(of_wall.find("\"top\" has a part along z"), std::string::npos) << of_wall;
+}
+
+// A block with corners. Where its last cell has a slanted plane, that plane may reach the floor.
+TEST(Walls, HoldASolidThatCoversThemAndNoOther) {
+  const Mesh mesh = test::read_box({.n = {24, 24, 0}});
+  const auto bonded = [&](Real gap) {
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = lid({})});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    const Vec3 at{0.4364583, 0.15 + gap / 24, 0};
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::box({0.20625, 0.3, 9}), at), .G = 1, .mu = 0.1});
+    return solver.body()->bonded_faces;
+  };
+  EXPECT_EQ(bonded(0), 5);
+  for (const Real gap : {0.02, 0.1, 0.2}) EXPECT_EQ(bonded(gap), 0) << gap;
+}
+
 // What is left of a plane in a mesh file's digits must not become a flux that no outflow takes up.
 TEST(Walls, LetNothingThrough) {
   const Mesh mesh = wavy(1e-7);

@@ -32,6 +32,23 @@ Result filled(const Mesh& mesh, const Shape& shape, Real exact, const FillAccura
   return {std::abs(result.volume / exact - 1), result.estimated_error / exact, result.clearance};
 }
 
+TEST(Fill, TellsWhetherAShapeIsADistance) {
+  const Mesh mesh = test::read_box({.n = {24, 24, 0}});
+  const auto steepest = [&](const Shape& shape) {
+    CellField<Real> alpha(mesh);
+    return fill(alpha, mesh, shape).steepest;
+  };
+  const Real r = 0.2;
+  const auto from_centre = [](const Vec3& x) { return norm(x - centre_2d); };
+  EXPECT_LE(steepest([&](const Vec3& x) { return from_centre(x) - r; }), 1 + 1e-12);
+  EXPECT_LE(steepest([&](const Vec3& x) { return 0.05 * (from_centre(x) - r); }), 0.05 + 1e-12);
+  // Its slope is 2 r at the surface.
+  EXPECT_LE(steepest([&](const Vec3& x) { return norm2(x - centre_2d) - r * r; }), 0.6);
+  EXPECT_LE(steepest(translate(ellipsoid({0.3, 0.05, infinity}), centre_2d)), 1 + 1e-12);
+  EXPECT_GE(steepest([&](const Vec3& x) { return norm2(x - centre_2d) / (r * r) - 1; }), 8);
+  EXPECT_GE(steepest([&](const Vec3& x) { return from_centre(x) < r ? -1.0 : 1.0; }), 8);
+}
+
 /// A smooth map of the unit box to itself that leaves its boundary in place.
 Vec3 distorted(const Vec3& x) {
   const Real s = std::sin(pi * x.x) * std::sin(pi * x.y);
