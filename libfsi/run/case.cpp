@@ -363,14 +363,15 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   // Values given over time may change while the flow is slow and would allow any step.
   const Real over_time = solver.conditions_dt(time.end);
   all.push_back({over_time < time.end ? over_time : Limit{}.dt, "conditions"});
+  const Real whole = time.end - solver.t_begun();
   // The pressure of a load follows a change of the flow over some steps.
   constexpr int least_steps = 20;
-  all.push_back({time.end / least_steps, "end"});
+  all.push_back({whole / least_steps, "end"});
   // A start from rest has no advective limit but from what moves at the boundary. A hundredth of
   // the run is small enough then, and after a solid is put in.
   constexpr int steps_of_start = 10;
   if (solver.steps() < steps_of_start)
-    all.push_back({std::min(time.end / 100, solver.boundary_dt(time.courant)), "start"});
+    all.push_back({std::min(whole / 100, solver.boundary_dt(time.courant)), "start"});
   if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
   if (solver.body() != nullptr) all.push_back({solver.strain_dt(solid::strain_of_part), "strain"});
   if (time.step_first > 0)

@@ -57,7 +57,8 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
     for (int i = 0; i <= times; ++i) {
       const Real t = end * i / times;
       const Flow flow = rate != nullptr ? at(*rate, t, A, mesh) : at(*fixed, patch, t, A, mesh);
-      if (flow.mean * D > peak.mean * peak.length) peak = {patch.name, t, flow.mean, flow.top, D};
+      if (flow.mean * D > peak.mean * peak.length)
+        peak = {patch.name, t, flow.mean * A, flow.mean, flow.top, D};
     }
   }
   return peak;
@@ -65,10 +66,12 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
 
 std::string text_of(const PeakFlow& peak, Real nu) {
   return print(
-      "peak of the flow: patch %s at t = %.4g, Re = %.4g of the mean velocity %.4g and the "
+      "peak of the flow: patch %s at t = %.4g, flow rate %.4g, Re = %.4g of the mean velocity %.4g "
+      "and the "
       "diameter %.4g; U = %.4g is the largest velocity there; for a parabola this "
       "takes the section to be a circle, in two dimensions a slit",
-      peak.patch.c_str(), peak.t, peak.mean * peak.length / nu, peak.mean, peak.length, peak.top);
+      peak.patch.c_str(), peak.t, peak.rate, peak.mean * peak.length / nu, peak.mean, peak.length,
+      peak.top);
 }
 
 Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end) {

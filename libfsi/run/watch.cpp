@@ -292,8 +292,10 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                std::max(of_stored * energy.largest(), of_work * std::abs(energy.work())));
   const Real larger = std::max(sound.elastic_energy, sound.shape_energy);
   const Real off = std::abs(sound.elastic_energy - sound.shape_energy);
-  // They may part at the start and again later. One that stays apart is told once.
-  if (off < apart / 2 * larger) said.forgetful = false;
+  // They may part at the start, belong together for long, and part again.
+  constexpr int long_enough = 50;  // values
+  said.agreed = off < apart / 2 * larger ? said.agreed + 1 : 0;
+  if (said.agreed == long_enough) said.forgetful = false;
   // A solid that leaves has no shape to compare with.
   if (body.map() != nullptr && !leaves(body) && !said.forgetful && larger > matters &&
       off > apart * larger) {

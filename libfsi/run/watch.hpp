@@ -75,6 +75,7 @@ class Watch {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
          off = false;
     int pieces = -1;  // at first
+    int agreed = 0;   // values in a row in which strain and shape belong to each other
   };
   /// The time over which viscosity, work and stored energy are compared.
   struct Span {

@@ -260,6 +260,7 @@ void Body::list(io::Snapshot& snapshot) {
   if (strain_by_flux()) snapshot.add(of + "alpha_mid", alpha_mid);
   snapshot.add(of + "solid_t", &t);
   snapshot.add(of + "solid_begun", &begun);
+  snapshot.add_optional(of + "solid_t_begun", &t_begun);
   snapshot.add(of + "solid_volume_out", &volume_out);
   snapshot.add(of + "solid_gone", &gone);
   snapshot.add(of + "solid_residue", &residue);

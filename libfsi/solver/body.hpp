@@ -175,6 +175,7 @@ struct Body {
   BoundaryField<char> touched;  ///< 1 where the solid touches the boundary, by set_touched
   Real t = 0;                   ///< time of alpha and B
   std::int64_t begun = 0;       ///< step of the flow in which it was put in
+  Real t_begun = 0;             ///< time of the flow at which it was put in
   Real dt = 0;                  ///< length of the last step of alpha and B
   solid::Strain strain;         ///< in the last step
   Real eigenvalue_min = 1;      ///< of B on this rank

@@ -136,6 +136,7 @@ void Solver::put_solid(const Solid& solid) {
   Body& body = bodies_.back();
   body.t = state_.t;
   body.begun = state_.step;
+  body.t_begun = state_.t;
   try {
     require_place(body, solid, bodies_, mesh_);
     require_depth(body, mirrors, mesh_);
@@ -157,6 +158,12 @@ void Solver::put_solid(const Solid& solid) {
 std::int64_t Solver::begun() const {
   std::int64_t last = 0;
   for (const Body& body : bodies_) last = std::max(last, body.begun);
+  return last;
+}
+
+Real Solver::t_begun() const {
+  Real last = 0;
+  for (const Body& body : bodies_) last = std::max(last, body.t_begun);
   return last;
 }
 

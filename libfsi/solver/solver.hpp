@@ -122,6 +122,8 @@ class Solver {
 
   /// Steps since the start, or since a solid was put in.
   std::int64_t steps() const { return state_.step - begun(); }
+  /// The time of the start, or that at which the last solid was put in.
+  Real t_begun() const;
 
   /// The mesh.
   const Mesh& mesh() const { return mesh_; }

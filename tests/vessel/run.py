@@ -55,7 +55,7 @@ def check_opening_lines(drivers, folder):
           "it opens with the fluid and what is there by default")
     check(re.search(r"patch right: resistance 0.5, distal resistance 2, capacitance 0.3: .* = 0.6; "
                     r".* = 0.2 of a change", said.stdout), "and with the windkessel and its time")
-    check(re.search(r"peak of the flow: patch left at t = 0.*, Re = 10 .*; U = 1 ", said.stdout) and
+    check(re.search(r"peak of the flow: patch left at t = 0.*, flow rate 1, Re = 10 .*; U = 1 ", said.stdout) and
           "G* = G / (rho U^2) = 0.5" in said.stdout, "with the peak of the flow and what it makes of G")
     limits = re.search(r"^limits on dt:.*$", said.stdout, re.M).group(0)
     check(limits.count("advective") == 1, "each limit is told once: " + limits)

@@ -160,6 +160,24 @@ TEST(AddedSolid, HasItsRowsInTheNextOutput) {
   for (const Real made : flow.at("energy_made")) EXPECT_LE(made, 0.01);
 }
 
+// The limits by the length of the run count from where the solid was put in.
+TEST(AddedSolid, TakesPartsOfWhatIsLeftOfTheRun) {
+  const Mesh mesh =
+      test::read_box({.n = {16, 16, 0}, .periodic = {"left", "right", "bottom", "top"}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 1}, {});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  while (solver.state().t < 10) solver.step(0.5);
+  const auto of = [&](const std::string& name) {
+    for (const Limit& limit : limits(solver, {.end = 10.1}))
+      if (limit.name == name) return limit.dt;
+    return Real{0};
+  };
+  EXPECT_NEAR(of("end"), 10.1 / 20, 1e-12);
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1});
+  EXPECT_NEAR(of("end"), 0.1 / 20, 1e-12);
+  EXPECT_NEAR(of("start"), 0.1 / 100, 1e-12);
+}
+
 // Beads enter at one place one after the other. For a restart all of them are put in at once.
 TEST(AddedSolid, BeadsThatEnterAtOnePlaceCanBeRestarted) {
   const Folder folder;
