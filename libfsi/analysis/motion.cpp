@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "libfsi/core/parallel.hpp"
@@ -13,21 +14,53 @@ namespace {
 struct Moments {
   Real volume = 0;
   Vec3 arm, momentum;  ///< sum alpha V (x - about), sum alpha V u
+  Real square = 0;     ///< sum alpha V |x - about|^2
 };
 
 Moments moments(const CellField<Real>& alpha, const CellField<Vec3>& u, const Mesh& mesh,
                 const Vec3& about) {
-  std::array<Sum, 7> sums;
+  std::array<Sum, 8> sums;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (alpha[c] == 0) continue;
     const Real volume = alpha[c] * mesh.V[c];
     const Vec3 x = mesh.C[c] + mesh.translation[nearest_image(mesh, mesh.C[c], about)] - about;
-    sums[0].add(volume);
+    sums[0].add(volume), sums[7].add(volume * norm2(x));
     for (int i = 0; i < 3; ++i) sums[1 + i].add(volume * x[i]), sums[4 + i].add(volume * u[c][i]);
   }
-  std::array<Real, 7> total{};
+  std::array<Real, 8> total{};
   Sum::totals(total, sums);
-  return {total[0], {total[1], total[2], total[3]}, {total[4], total[5], total[6]}};
+  return {total[0], {total[1], total[2], total[3]}, {total[4], total[5], total[6]}, total[7]};
+}
+
+/// Moves `home` to the mean over nearest images, until it stays. A solid of length l departs from a
+/// place half a period L off by L / l in a round, so one that is almost as long needs many.
+Moments settle(Vec3& home, const CellField<Real>& alpha, const CellField<Vec3>& u,
+               const Mesh& mesh) {
+  constexpr int most = 200;
+  constexpr Real still = 1e-12;  // of the solid's size
+  Moments sum;
+  for (int round = 0; round < most; ++round) {
+    sum = moments(alpha, u, mesh, home);
+    if (sum.volume == 0) break;
+    const Vec3 move = sum.arm / sum.volume;
+    home += move;
+    const Real size = std::pow(sum.volume, Real{1} / mesh.dim);
+    if (mesh.translation.size() == 1 || norm(move) <= still * size) break;
+  }
+  return sum;
+}
+
+/// Of the places where the mean may stay, that about which the solid is most compact.
+void settle_at_first(Vec3& home, const CellField<Real>& alpha, const CellField<Vec3>& u,
+                     const Mesh& mesh) {
+  constexpr Real nearer = 1 - 1e-9;
+  Real least = settle(home, alpha, u, mesh).square;
+  const Vec3 first = home;
+  for (std::size_t row = 1; row < mesh.translation.size(); ++row) {
+    Vec3 other = first + mesh.translation[row] / 2;
+    const Real square = settle(other, alpha, u, mesh).square;
+    if (square < nearer * least) least = square, home = other;
+  }
 }
 
 /// sum alpha V L . way, L = (1/V) sum_f u_f (x) S_f: how the mean of u changes along a way that all
@@ -95,17 +128,12 @@ Index nearest_image(const Mesh& mesh, const Vec3& x, const Vec3& about) {
 
 Motion motion(Tracker& tracker, const CellField<Real>& alpha, const CellField<Vec3>& u,
               const Mesh& mesh, Real ahead) {
-  // From a point inside, the mean over nearest images moves to the centroid in a few rounds.
-  // Later the second one is about the new place: a solid almost as long as a period needs it.
-  constexpr int first_rounds = 8, rounds = 2;
-  if (!tracker.started) tracker.home = point_inside(alpha, mesh), tracker.middle = middle(mesh);
-  Moments sum;
-  for (int round = tracker.started ? rounds : first_rounds; round > 0; --round) {
-    sum = moments(alpha, u, mesh, tracker.home);
-    if (sum.volume == 0) return {0, tracker.home + tracker.travelled, {}};
-    tracker.home += sum.arm / sum.volume;
-    if (mesh.translation.size() == 1) break;
+  if (!tracker.started) {
+    tracker.home = point_inside(alpha, mesh), tracker.middle = middle(mesh);
+    settle_at_first(tracker.home, alpha, u, mesh);
   }
+  const Moments sum = settle(tracker.home, alpha, u, mesh);
+  if (sum.volume == 0) return {0, tracker.home + tracker.travelled, {}};
   const bool first = !tracker.started;
   tracker.started = true;
   const Vec3 jump = mesh.translation[nearest_image(mesh, tracker.home, tracker.middle)];

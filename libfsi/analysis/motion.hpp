@@ -25,7 +25,7 @@ struct Motion {
 
 /// Collective. x_c = sum alpha x V / sum alpha V, [Matsumiya25] (18), u_c = sum alpha u V / sum
 /// alpha V, (22), over owned cells, each at its image nearest to the solid. The solid must be
-/// shorter than half a period, and move by less than that between calls. Without any solid the
+/// shorter than a period, and move by less than half of one between calls. Without any solid the
 /// centroid stays and the velocity is zero. On return `tracker` holds the new centroid. ahead: the
 /// time of u less that of alpha. At the time of u the solid has moved by u_c ahead. The velocity is
 /// that at its new place, u_c + ahead sum alpha V (L . u_c) / sum alpha V. Without this term a

@@ -239,8 +239,9 @@ Vec3 Options::vec3(const std::string& name, const Vec3& fallback, const Spec& sp
   Vec3 value = fallback;
   if (text) {
     const std::vector<std::string> items = split(*text);
-    require(items.size() == 3, "option -" + name + ": \"" + *text + "\" is " +
-                                   std::to_string(items.size()) + " of three numbers, x,y,z");
+    require(items.size() == 3, "option -" + name + ": \"" + *text + "\" has " +
+                                   std::to_string(items.size()) +
+                                   " numbers; expected three, x,y,z");
     for (int i = 0; i < 3; ++i) value[i] = parse(name, items[static_cast<std::size_t>(i)], spec);
   }
   const auto list = [](const Vec3& v) {

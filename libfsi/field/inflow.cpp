@@ -182,7 +182,8 @@ std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const 
   }
   const Vec3 area{sums[0].total(), sums[1].total(), sums[2].total()};
   require(norm(area) > 0, "patch \"" + patch.name + "\" has no net area to flow through");
-  constexpr Real flat = 0.9;
+  // A plug may come in through a curved patch.
+  const Real flat = profile == InflowProfile::parabola ? 0.9 : 0.5;
   require(norm(area) > flat * sums[3].total(),
           "the faces of patch \"" + patch.name +
               "\" look different ways, so its flow has no direction; give each opening a name of "

@@ -124,7 +124,7 @@ void Output::go_on_from_checkpoint() {
   const std::string notice = differences(simulated_, now);
   simulated_ = now;
   solver_.resume();
-  energy_.resume(solver_);
+  energy_.resume(solver_), watch_.resume(solver_);
   saved_step_ = solver_.state().step;
   samples_.resume(solver_.state().t, samples_text_);
   for (Schedule* event : {&field_, &checkpoint_}) event->resume(solver_.state().t);

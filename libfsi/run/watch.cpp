@@ -239,6 +239,13 @@ void Watch::leaving(const Solver& solver) {
   }
 }
 
+void Watch::resume(const Solver& solver) {
+  for (std::size_t i = 0; i < said_.size(); ++i) {
+    const Body& body = solver.bodies()[i];
+    said_[i].leaving = leaves(body), said_[i].left = body.gone != 0;
+  }
+}
+
 bool Watch::balance(const Solver& solver, bool divides, bool goes_on) {
   constexpr Real uneven = 2, few = 30;  // cells a rank: so few cost little
   constexpr Real grown = 1.5;           // where a new division was no better

@@ -87,12 +87,11 @@ void Solver::keep_backup() {
 }
 
 bool Solver::stuck(Real dt) {
-  constexpr Real tiny = 1e-6;       // of the largest step
-  constexpr int most = 100;         // such steps in a row; a single one may end at an event
-  constexpr Real rounding = 1e-12;  // of the time: no step ends at an event that near
+  constexpr Real tiny = 1e-6;  // of the largest step
+  constexpr int most = 100;    // such steps in a row; a single one may end at an event
   dt_largest_ = std::max(dt_largest_, dt);
   tiny_steps_ = dt < tiny * dt_largest_ ? tiny_steps_ + 1 : 0;
-  return tiny_steps_ > most || dt < rounding * state_.t;
+  return tiny_steps_ > most;
 }
 
 Solver::Calls::Calls(Profile& profile)
@@ -190,7 +189,10 @@ bool Solver::balanced(Real t) {
 
 Real Solver::advance(Real dt) {
   require_length(dt);
-  if (!report_.failure.empty()) throw Error(ErrorKind::numerics, report_.failure);
+  if (!report_.failure.empty() && state_.step == failed_step_ && dt == failed_dt_)
+    throw Error(ErrorKind::numerics, report_.failure);
+  report_.failure.clear();
+  failed_step_ = state_.step, failed_dt_ = dt;  // of no meaning but with a failure
   if (!balanced(state_.t + dt)) return 0;
   keep_backup();
   dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());

@@ -71,6 +71,12 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
+  const auto among = [](const std::vector<Patch>& patches, const Patch& patch) {
+    return std::ranges::find(patches, patch.name, &Patch::name) != patches.end();
+  };
+  for (const Patch& patch : mesh.patches)
+    if (!among(walls, patch) && !among(mirrors, patch))
+      for (Index f = patch.begin; f < patch.end; ++f) at_openings.push_back(mesh.owner[f]);
   const std::vector<char> at_walls = bonded(walls), at_still = bonded(still);
   set_bond(at_walls, at_still);
   if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty())
@@ -208,7 +214,7 @@ void Body::hold_shape() {
       .shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust};
   // It would do so where an opening has cut the solid, too.
   if (volume_out > 0) {
-    vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count);
+    vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count, at_openings);
     for (std::size_t i = 0; i < trust.size(); ++i)
       if (left_out[m.cells()[i]] > 0) trust[i] = 0;
   }

@@ -207,6 +207,7 @@ struct Body {
   bool held = false;                             ///< whether alpha is held to the shape of the map
   vof::HoldScratch hold_scratch;                 ///< scratch
   Pieces pieces;                                 ///< at the last hold_shape
+  std::vector<Index> at_openings;                ///< owned cells
   CellField<Real> left_out;                      ///< scratch of hold_shape
   std::vector<Real> trust;                       ///< scratch of hold_shape
   Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's

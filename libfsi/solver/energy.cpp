@@ -65,12 +65,12 @@ EnergyBalance::EnergyBalance(const Solver& solver)
 }
 
 void EnergyBalance::resume(const Solver& solver) {
-  const Real read = power_of_flow_, stored = stored_;
+  const Real read = power_of_flow_, turning = power_of_turning_, stored = stored_;
   set_velocities(solver);
   keep_velocities(solver);
   set_powers_and_stored(solver);
   if (steps_ > 0) {
-    power_of_flow_ = read;
+    power_of_flow_ = read, power_of_turning_ = turning;
     work_ += stored_ - stored;
   }
   power_ = power_of_flow_ + power_of_step_;
@@ -252,6 +252,7 @@ void EnergyBalance::list(io::Snapshot& snapshot) {
   snapshot.add("energy_power", &power_of_flow_);
   snapshot.add("energy_made", &made_);
   snapshot.add_optional("energy_turning", &turning_);
+  snapshot.add_optional("energy_turning_power", &power_of_turning_);
   snapshot.add("energy_steps", &steps_);
 }
 

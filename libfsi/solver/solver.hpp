@@ -78,8 +78,8 @@ class Solver {
   /// state, with at most eight halvings. A step fails when it throws or when what it leaves behind
   /// is out of bounds (advance.cpp); the steps after it grow by a tenth each. Returns the length
   /// taken; 0 when all failed: report().failure then says why and the state is that before the
-  /// step. Errors: Error{input} as those of `step`; Error{numerics} where report().failure is set
-  /// already, so a loop that does not look at what is returned ends.
+  /// step. Errors: Error{input} as those of `step`; Error{numerics} where the call before
+  /// returned 0 and dt is the same, so a loop that does not look at what is returned ends.
   Real advance(Real dt);
 
   /// Collective. Brings a solid that stands between two steps to the state's time. The next step
@@ -161,7 +161,7 @@ class Solver {
   const CellField<Vec3>& pressure_gradient() const { return grad_p_; }
   /// Viscosity at the faces, of the last step.
   const FaceField<Real>& mu() const { return mu_; }
-  /// Velocity gradient at the irregular faces (FaceWeights::place), of the start of the last step.
+  /// Velocity gradient at the irregular faces (FaceWeights::place), of u* of the last step.
   const std::vector<Tensor>& L_f() const { return L_f_; }
   /// Weights of the faces.
   const FaceWeights& weights() const { return weights_; }
@@ -367,6 +367,8 @@ class Solver {
   std::optional<Backup> backup_;
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
+  std::int64_t failed_step_ = -1;                   // that of the last call of advance
+  Real failed_dt_ = 0;                              // its length, as asked
   int tiny_steps_ = 0;                              // in a row
   Real cells_norm_ = 0;                             // sqrt(sum V^2)
   StepReport report_;

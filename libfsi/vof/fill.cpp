@@ -228,13 +228,15 @@ Parts parts_of(const Mesh& mesh, Index c, const Images& distance, const FillAccu
   return parts;
 }
 
-/// Largest slope of f between the centres of neighbours, where the surface passes within such a
-/// distance of one of them.
+/// Largest slope of f between the centres of neighbours, where the surface passes between them or
+/// as near to one of them as the other is.
 Real steepest(const CellField<Real>& f, const Mesh& mesh) {
   Real most = 0;
   for (Index i = 0; i < mesh.n_internal; ++i) {
     const Real a = f[mesh.owner[i]], b = f[mesh.neighbour[i]], rise = std::abs(a - b);
-    if (std::min(std::abs(a), std::abs(b)) <= rise) most = std::max(most, rise / norm(mesh.d[i]));
+    const Real apart = norm(mesh.d[i]);
+    if ((a < 0) != (b < 0) || std::min(std::abs(a), std::abs(b)) <= apart)
+      most = std::max(most, rise / apart);
   }
   return global_max(most);
 }

@@ -123,15 +123,16 @@ Real set_change_of_no_volume(const CellField<Real>& alpha, Real volume, const Me
 }  // namespace
 
 void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMap& map,
-              const Mesh& mesh, int rings) {
-  constexpr Real half = 0.5, deep = 1.2;  // of solid; cells
+              const Mesh& mesh, int rings, std::span<const Index> at_openings) {
+  const auto empty = [&](Index c) { return alpha[c] < 0.5; };
   near.fill(0);
   Vec3 laps;
   for (const Index c : map.cells) {
-    if (alpha[c] >= half) continue;
+    if (!empty(c) || !std::ranges::all_of(mesh.cell_neighbours[c], empty)) continue;
     Vec3 xi = mesh.C[c] + map.d[c];
-    if (nearest_image(xi, laps, map.shape, mesh) < -deep * cell_size(mesh, c)) near[c] = 1 + rings;
+    if (nearest_image(xi, laps, map.shape, mesh) < 0) near[c] = 1 + rings;
   }
+  for (const Index c : at_openings) near[c] = 1 + rings;
   mesh.halo.update(near);
   spread_marks(near, rings, mesh, [](Index) { return true; });
 }

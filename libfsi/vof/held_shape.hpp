@@ -32,11 +32,12 @@ struct HoldScratch {
 };
 
 /// Collective. Finds where the map tells of solid that is not there, as where an opening has cut
-/// the solid and the flow turned back. Such cells have less than half of solid and are deeper
-/// than 1.2 cells in the shape that the map gives. Sets `near` to 1 in them and in `rings` rings of
-/// vertex neighbours around them, to 0 elsewhere; owned and halo. map.weight is not used.
+/// the solid and the flow turned back. Such cells, and all their vertex neighbours, have less than
+/// half of solid, and their centres lie in the shape that the map gives. At first such a cell is
+/// still outside. So cells at openings count, too. Sets `near` to 1 in all of these and in `rings`
+/// rings of vertex neighbours around them, to 0 elsewhere; owned and halo. map.weight is not used.
 void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMap& map,
-              const Mesh& mesh, int rings);
+              const Mesh& mesh, int rings, std::span<const Index> at_openings);
 
 /// Collective. Moves the fractions towards those of the solid that the map gives, {x : shape(xi(x))
 /// < shift}. The surface of that solid is a material one. The advection of alpha uses the mean

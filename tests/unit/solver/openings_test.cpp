@@ -97,20 +97,22 @@ TEST(Inflow, AProfileGoesOnThroughAPeriod) {
 
 // A patch like a roof has no direction in which all of its flow goes.
 TEST(Inflow, NeedsFacesThatLookOneWay) {
-  const auto refused = [](Real height) {
+  const auto refused = [](Real height, InflowProfile profile) {
     const Mesh mesh = test::read_box({.n = {8, 8, 0}, .moved = [height](const Vec3& x) {
                                         const Real roof = height * std::abs(x.y - 0.5);
-                                        return x + Vec3{(1 - x.x) * roof, 0, 0};
+                                        return x - Vec3{(1 - x.x) * roof, 0, 0};
                                       }});
     try {
-      inflow_shape(InflowProfile::plug, mesh.patch("left"), mesh, {});
+      inflow_shape(profile, mesh.patch("left"), mesh, {});
     } catch (const Error& error) {
       return std::string(error.what()).find("\"left\" look different ways") != std::string::npos;
     }
     return false;
   };
-  EXPECT_FALSE(refused(0.3));
-  EXPECT_TRUE(refused(0.6));
+  EXPECT_FALSE(refused(0.3, InflowProfile::parabola));
+  EXPECT_TRUE(refused(0.6, InflowProfile::parabola));
+  EXPECT_FALSE(refused(0.6, InflowProfile::plug)) << "a wind through a curved patch";
+  EXPECT_TRUE(refused(2, InflowProfile::plug));
 }
 
 TEST(Inflow, WithoutFrictionAtTheRimItIsAPlug) {
