@@ -137,17 +137,19 @@ void add_ring(std::vector<Entry>& row, const analysis::Ring& ring) {
 }
 
 /// Extremes of J = det grad xi in cells with alpha of at least 1/2: the error of volume of the map.
-void add_map(std::vector<Entry>& row, const Soundness& soundness, const solid::ReferenceMap& map,
-             const Body& body) {
+void set_map(Soundness& soundness, const solid::ReferenceMap& map, const Body& body) {
   Real low = std::numeric_limits<Real>::max(), high = -low;
   for (Index c = 0; c < body.mesh.n_owned; ++c) {
     if (!(body.alpha[c] >= solid::alpha_known)) continue;
     low = std::min(low, map.volume_ratio(c)), high = std::max(high, map.volume_ratio(c));
   }
   low = global_min(low), high = global_max(high);
-  const bool any = low <= high;
-  row.push_back({"map_det_min", any ? low : 1});
-  row.push_back({"map_det_max", any ? high : 1});
+  if (low <= high) soundness.map_det_min = low, soundness.map_det_max = high;
+}
+
+void add_map(std::vector<Entry>& row, const Soundness& soundness, const Body& body) {
+  row.push_back({"map_det_min", soundness.map_det_min});
+  row.push_back({"map_det_max", soundness.map_det_max});
   row.push_back({"shape_energy", soundness.shape_energy, Course::energy});
   row.push_back({"shape_moved", body.shape_moved, Course::step});
 }
@@ -290,7 +292,10 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   row.push_back({"taylor", shape.deformation});
   row.push_back({"taylor_angle", shape.angle, Course::half_turn});
   row.push_back({"elastic_energy", soundness_.elastic_energy, Course::energy});
-  if (body.map() != nullptr) add_map(row, soundness_, *body.map(), body);
+  if (body.map() != nullptr) {
+    set_map(soundness_, *body.map(), body);
+    add_map(row, soundness_, body);
+  }
   if (!ring_ || mesh.dim == 2) return row;
   const analysis::RingFrame frame = analysis::ring_frame(o.n, zeta_);
   zeta_ = frame.zeta;

@@ -42,11 +42,12 @@ Real dissipation(Solver& solver);
 
 /// Figures by which the result of a solid is judged.
 struct Soundness {
-  Real eigenvalue_min = 1;  ///< of B in cells more than half solid
-  int pieces = 1;           ///< of a hundredth of its volume or more
-  Real elastic_energy = 0;  ///< that of the stress
-  Real shape_energy = 0;    ///< that of the strain that the map gives
-  Real bond_kept = 1;       ///< part of the faces of its bond that it still covers
+  Real eigenvalue_min = 1;                ///< of B in cells more than half solid
+  int pieces = 1;                         ///< of a hundredth of its volume or more
+  Real elastic_energy = 0;                ///< that of the stress
+  Real shape_energy = 0;                  ///< that of the strain that the map gives
+  Real map_det_min = 1, map_det_max = 1;  ///< of the map, in cells at least half solid
+  Real bond_kept = 1;                     ///< part of the faces of its bond that it still covers
 };
 
 /// Makes the rows of a solid. Its data from earlier rows are part of a checkpoint.

@@ -265,6 +265,39 @@ bool Watch::balance(const Solver& solver, bool divides, bool goes_on) {
   return worse;
 }
 
+void Watch::bond(std::size_t i, const Solver& solver, const Soundness& sound) {
+  const Body& body = solver.bodies()[i];
+  Said& said = said_[i];
+  constexpr Real most = 0.8;  // a strained solid may bare the cells at its edge
+  if (sound.bond_kept < most && !said.off) {
+    said.off = true;
+    say("warning", print("at t = %.4g the ", solver.state().t) + name_of(body) +
+                       print(" covers only %.0f %% of the faces of walls that it was bonded to: it "
+                             "comes off, and nothing holds it there; the mesh is too coarse for "
+                             "the strain at its foot, or it only touched the wall at the start "
+                             "(doc/theory/walls.md)",
+                             100 * sound.bond_kept));
+  }
+}
+
+void Watch::map(std::size_t i, const Solver& solver, const Soundness& sound) {
+  constexpr Real least = 0.5, most = 2;  // there the map is not trusted at all
+  const Body& body = solver.bodies()[i];
+  Said& said = said_[i];
+  const bool right = sound.map_det_min > least && sound.map_det_max < most;
+  // What an opening has cut off has no neighbours to tell of.
+  if (right || said.unmapped || leaves(body)) return;
+  said.unmapped = true;
+  say("warning",
+      print("at t = %.4g the map of the ", solver.state().t) + name_of(body) +
+          (sound.map_det_min > 0 ? print(" is wrong by a factor of %.2g in volume",
+                                         std::max(1 / sound.map_det_min, sound.map_det_max))
+                                 : std::string(" has folded")) +
+          " (columns map_det_min and map_det_max of " + table_of(body) +
+          "): its shape is no longer held there, and with reference_map its stress is wrong; the "
+          "mesh is too coarse for the strain, or for the film at a wall");
+}
+
 void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                    const EnergyBalance& energy) {
   constexpr Real least = 0.05;  // doc/verification/stability.md
@@ -279,16 +312,8 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        " (column min_eig_B of " + table_of(body) +
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
-  constexpr Real most = 0.8;  // a strained solid may bare the cells at its edge
-  if (sound.bond_kept < most && !said.off) {
-    said.off = true;
-    say("warning", at + "the " + name_of(body) +
-                       print(" covers only %.0f %% of the faces of walls that it was bonded to: it "
-                             "comes off, and nothing holds it there; the mesh is too coarse for "
-                             "the strain at its foot, or it only touched the wall at the start "
-                             "(doc/theory/walls.md)",
-                             100 * sound.bond_kept));
-  }
+  bond(i, solver, sound);
+  map(i, solver, sound);
   constexpr Real apart = 0.5;      // of the larger
   constexpr Real of_solid = 1e-3;  // of G times the volume
   // A stiff solid is far below that, and yet may store more than the flow gave. In slow flow little

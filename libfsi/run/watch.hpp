@@ -68,17 +68,20 @@ class Watch {
   /// A warning if a solid is strained more than the mesh resolves, and one if the energy of its
   /// stress is not that of its shape. Then they differ by more than half of the larger one, which
   /// is not small beside what the solid or the flow has. Others if it has more pieces than at the
-  /// first call, and if it comes off the walls that it was bonded to.
+  /// first call, if it comes off the walls that it was bonded to, and if its map has lost half of
+  /// its volume somewhere.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound,
               const EnergyBalance& energy);
 
  private:
   struct Said {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
-         off = false;
+         off = false, unmapped = false;
     int pieces = -1;  // at first
     int agreed = 0;   // values in a row in which strain and shape belong to each other
   };
+  void bond(std::size_t body, const Solver& solver, const Soundness& sound);
+  void map(std::size_t body, const Solver& solver, const Soundness& sound);
   /// The time over which viscosity, work and stored energy are compared.
   struct Span {
     Real begin = 0, work = 0, stored = 0;          // at its begin

@@ -77,6 +77,23 @@ TEST(Watch, ABareBondIsToldOnce) {
   EXPECT_EQ(said(1), "");
 }
 
+TEST(Watch, AMapThatLostItsVolumeIsToldOnce) {
+  Disc disc;
+  Watch watch(1);
+  const EnergyBalance energy(disc.solver);
+  const auto said = [&](Real least, Real most) {
+    testing::internal::CaptureStderr();
+    watch.strain(0, disc.solver, {.map_det_min = least, .map_det_max = most}, energy);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(0.6, 1.5), "");
+  const std::string warning = said(0.4, 1.5);
+  if (rank() == 0) {
+    EXPECT_NE(warning.find("wrong by a factor of 2.5 in volume"), std::string::npos) << warning;
+  }
+  EXPECT_EQ(said(-1, 5), "");
+}
+
 TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
   Watch watch(0), of_fixed(0);
   const auto said = [](Watch& of, const std::string& limit, std::int64_t few, std::int64_t many,
