@@ -54,8 +54,9 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
     const Real A = area_of(patch, mesh);
     const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
     const int times = rate != nullptr ? 4000 : 100;
-    for (int i = 0; i <= times; ++i) {
-      const Real t = i == 0 ? 0 : end * golden(i);  // equal steps may meet a pulse at one phase
+    for (int i = 0; i <= 2 * times; ++i) {
+      // Even times alone may meet a pulse at one phase.
+      const Real t = end * (i <= times ? static_cast<Real>(i) / times : golden(i));
       const Flow flow = rate != nullptr ? at(*rate, t, A, mesh) : at(*fixed, patch, t, A, mesh);
       if (flow.mean * D > peak.mean * peak.length)
         peak = {patch.name, t, flow.mean * A, flow.mean, flow.top, D};

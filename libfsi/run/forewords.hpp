@@ -20,7 +20,8 @@ struct PeakFlow {
 };
 
 /// Collective. The flow with the largest mean * length, of all patches and of all times up to
-/// `end`. Flow rates are sampled 4000 times, velocities 100 times.
+/// `end`. Flow rates are sampled at 4000 even times and as many others, velocities at
+/// 100 and 100.
 PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end);
 
 /// That flow in a sentence, with its Reynolds number. nu: kinematic viscosity.

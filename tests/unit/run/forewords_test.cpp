@@ -39,6 +39,17 @@ TEST(Forewords, AVelocityCountsByWhatItCarries) {
   EXPECT_NEAR(peak_flow(slit, mesh, 1).top, 1.5, 1e-12) << "a parabola between two lines";
 }
 
+// A pulse of period 1 that is 0 at all even times.
+TEST(Forewords, APulseInALongRunIsSeen) {
+  const Mesh mesh = test::read_box({.n = {4, 4, 0}});
+  const auto pulse = [](Real t) { return std::pow(std::sin(std::acos(-1.0) * t), 2); };
+  const Conditions conditions{{"left", FixedVelocity{[&](const Vec3&, Real t) {
+                                 return Vec3{pulse(t), 0, 0};
+                               }}},
+                              {"right", FlowRate{[&](Real t) { return -0.5 * pulse(t); }}}};
+  EXPECT_NEAR(peak_flow(conditions, mesh, 100).rate, 1, 1e-2);
+}
+
 TEST(Forewords, ACurvedPatchIsToldFromPlanes) {
   test::BoxFile box{.n = {12, 3, 3}};
   const Mesh flat = test::read_box(box);
