@@ -9,6 +9,7 @@
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/run/thin_film.hpp"
 
 namespace fsi {
 namespace {
@@ -24,6 +25,18 @@ bool leaves(const Body& body) {
 }
 
 std::string name_of(const Body& body) { return body.name.empty() ? "solid" : "solid " + body.name; }
+
+/// Of what the solid does at a wall with a film that is not resolved.
+std::string tell_of_wall(const std::string& wall, const Body& body) {
+  if (!body.film)
+    return name_of(body) + " touches " + wall + " and sticks to it: with " +
+           fsi::name_of(body.kinematics) +
+           " there is no film between them; log_conformation has one";
+  const std::string option = body.name.empty() ? "-solid" : "-solids_" + body.name;
+  return "film between " + name_of(body) + " and " + wall +
+         " is thinner than half a cell: how fast it slides there depends on the mesh; " + option +
+         "_film_thickness gives the film's friction a thickness (doc/theory/walls.md)";
+}
 
 std::string table_of(const Body& body) {
   return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
@@ -280,6 +293,24 @@ void Watch::bond(std::size_t i, const Solver& solver, const Soundness& sound) {
   }
 }
 
+void Watch::films(std::size_t i, const Solver& solver) {
+  const Body& body = solver.bodies()[i];
+  Said& said = said_[i];
+  if ((said.sliding && told_of_touch_) || leaves(body)) return;
+  const ThinFilms thin = thin_films(i, solver);
+  const std::string at = print("at t = %.4g the ", solver.state().t);
+  if (!thin.wall.empty() && !said.sliding && body.film_thickness == 0) {
+    said.sliding = true;
+    say("notice", at + tell_of_wall(thin.wall, body));
+  }
+  if (!thin.solid.empty() && !told_of_touch_) {
+    told_of_touch_ = true;
+    say("notice", at + "film between " + name_of(body) + " and solid " + thin.solid +
+                      " is thinner than a cell: there they move with one velocity, and how they "
+                      "slide along each other depends on the mesh (doc/theory/step.md)");
+  }
+}
+
 void Watch::map(std::size_t i, const Solver& solver, const Soundness& sound) {
   constexpr Real least = 0.5, most = 2;  // there the map is not trusted at all
   const Body& body = solver.bodies()[i];
@@ -313,6 +344,7 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        "): the mesh is too coarse for so much strain, or the solid too soft");
   }
   bond(i, solver, sound);
+  films(i, solver);
   map(i, solver, sound);
   constexpr Real apart = 0.5;      // of the larger
   constexpr Real of_solid = 1e-3;  // of G times the volume

@@ -69,19 +69,22 @@ class Watch {
   /// stress is not that of its shape. Then they differ by more than half of the larger one, which
   /// is not small beside what the solid or the flow has. Others if it has more pieces than at the
   /// first call, if it comes off the walls that it was bonded to, and if its map has lost half of
-  /// its volume somewhere.
+  /// its volume somewhere. A notice if a film between it and a wall, or two of the solids, is
+  /// thinner than the mesh resolves.
   void strain(std::size_t body, const Solver& solver, const Soundness& sound,
               const EnergyBalance& energy);
 
  private:
   struct Said {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
-         off = false, unmapped = false;
+         off = false, unmapped = false, sliding = false;
     int pieces = -1;  // at first
     int agreed = 0;   // values in a row in which strain and shape belong to each other
   };
   void bond(std::size_t body, const Solver& solver, const Soundness& sound);
   void map(std::size_t body, const Solver& solver, const Soundness& sound);
+  /// Collective.
+  void films(std::size_t body, const Solver& solver);
   /// The time over which viscosity, work and stored energy are compared.
   struct Span {
     Real begin = 0, work = 0, stored = 0;          // at its begin
@@ -93,7 +96,8 @@ class Watch {
   int steps_since_ = 0;  // the last value of `source`
   bool one_viscosity_, told_of_source_ = false;
   bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
-       told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false;
+       told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false,
+       told_of_touch_ = false;
   Real share_at_start_ = -1;  // the busiest rank's in the solid's cells, over the mean
 };
 

@@ -94,6 +94,44 @@ TEST(Watch, AMapThatLostItsVolumeIsToldOnce) {
   EXPECT_EQ(said(-1, 5), "");
 }
 
+// Two discs in a channel: the first comes to the floor, and then to the second.
+TEST(Watch, FilmsThatTheMeshDoesNotResolveAreToldOnce) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"left", "right"}});
+  for (const KinematicsKind kinematics :
+       {KinematicsKind::log_conformation, KinematicsKind::reference_map}) {
+    Solver solver{
+        mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}}};
+    solver.start([](const Vec3&) { return Vec3{}; });
+    const auto put = [&](const char* name, Real x) {
+      const shapes::Shape disc = shapes::translate(shapes::sphere(0.15), {x, 0.5, 0});
+      solver.put_solid({.shape = disc, .G = 1, .mu = 0.1, .name = name, .kinematics = kinematics});
+    };
+    put("a", 0.25), put("b", 0.75);
+    Watch watch(2);
+    const EnergyBalance energy(solver);
+    const auto said = [&](const Vec3& at, Real fraction) {
+      for (Index c = 0; c < mesh.n_cells; ++c)
+        if (norm(mesh.C[c] - at) < 0.03) solver.body()->alpha[c] = fraction;
+      testing::internal::CaptureStderr();
+      for (std::size_t i = 0; i < 2; ++i) watch.strain(i, solver, {}, energy);
+      return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(said({0.275, 0.075, 0}, 1), "") << "a cell off the floor";
+    EXPECT_EQ(said({0.275, 0.025, 0}, 0.4), "") << "more than half a cell of fluid";
+    const std::string at_wall = said({0.275, 0.025, 0}, 0.6), at_other = said({0.775, 0.475, 0}, 1);
+    if (rank() == 0) {
+      const char* expected = kinematics == KinematicsKind::log_conformation
+                                 ? "film between solid a and bottom is thinner than half a cell"
+                                 : "solid a touches bottom and sticks to it: with reference_map";
+      EXPECT_NE(at_wall.find(expected), std::string::npos) << at_wall;
+      EXPECT_NE(at_other.find("film between solid a and solid b is thinner than a cell"),
+                std::string::npos)
+          << at_other;
+    }
+    EXPECT_EQ(said({0.775, 0.525, 0}, 1), "");
+  }
+}
+
 TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
   Watch watch(0), of_fixed(0);
   const auto said = [](Watch& of, const std::string& limit, std::int64_t few, std::int64_t many,
