@@ -236,8 +236,8 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_s
   mesh_.halo.update(force);
 }
 
-void SurfaceTraction::add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
-                                        const Band& band) const {
+void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
+                                        const FaceField<Real>& alpha_f, const Band& band) const {
   if (mu_.solid > mu_.fluid) return;
   for (const Index f : band.faces()) {
     Real touched = touch_[mesh_.owner[f]];
@@ -245,7 +245,7 @@ void SurfaceTraction::add_semi_implicit(FaceField<Real>& kappa, const FaceField<
     if (touched == 0) continue;
     // mu_h / mu_s
     const Real weight = 1 / (alpha_f[f] + (1 - alpha_f[f]) * mu_least_ / mu_.fluid);
-    kappa[f] = kappa[f] * weight + mu_.fluid - mu_.solid;
+    stiff[f] += kappa[f] * (weight - 1) + mu_.fluid - mu_.solid;
   }
 }
 

@@ -76,14 +76,15 @@ class SurfaceTraction {
   /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
   /// fluid is the more viscous one. If the solid is, its implicit viscous term is enough.
   ///
-  ///   kappa_f <- kappa_f mu_h / mu_s + C (mu_f - mu_s),   C = 1
+  ///   stiff_f <- stiff_f + kappa_f (mu_h / mu_s - 1) + C (mu_f - mu_s),   C = 1
   ///
+  /// stiff: that of all solids, kappa before the first of them is added.
   /// The elastic stress of such a face has the factor alpha_f mu_h / mu_s, where kappa_f has
   /// alpha_f. The second term acts on the change of u in a step. Its error is of order dt in the
   /// stress of these faces alone, and of second order in u if dt ~ h. With C = 0.2 an inclusion of
   /// mu_s / mu_f = 1e-4 in Stokes flow becomes unstable, with 0.3 it does not.
-  void add_semi_implicit(FaceField<Real>& kappa, const FaceField<Real>& alpha_f,
-                         const Band& band) const;
+  void add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
+                         const FaceField<Real>& alpha_f, const Band& band) const;
 
   /// mu_s / mu_f of the two in series.
   Real in_series() const { return mu_least_ / mu_.fluid; }

@@ -52,15 +52,21 @@ void WallFilm::set(const CellField<Real>& fraction) {
   mesh_.halo.update(fraction_);
 }
 
-void WallFilm::set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
-                             const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const {
+bool WallFilm::covers(Index f, const CellField<Real>& alpha) const {
   constexpr Real wisp = 1e-9;  // around less solid alpha_f is not set
-  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f) {
-    if (faces_[f - mesh_.n_internal] == 0 || alpha[mesh_.owner[f]] < wisp) continue;
-    mu[f] = mu_f;
-    if (thickness <= 0) continue;
-    mu[f] /= std::max(1 - alpha_f[f], thickness / depth(f));
-  }
+  return faces_[f - mesh_.n_internal] != 0 && alpha[mesh_.owner[f]] >= wisp;
+}
+
+void WallFilm::set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f) const {
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (covers(f, alpha)) mu[f] = mu_f;
+}
+
+void WallFilm::thin(FaceField<Real>& mu, const CellField<Real>& alpha,
+                    const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const {
+  if (thickness <= 0) return;
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (covers(f, alpha)) mu[f] = mu_f / std::max(mu_f / mu[f] - alpha_f[f], thickness / depth(f));
 }
 
 Real WallFilm::depth(Index f) const { return dot(mesh_.d[f], mesh_.Sf[f]) / norm(mesh_.Sf[f]); }

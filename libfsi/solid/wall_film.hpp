@@ -24,13 +24,16 @@ class WallFilm {
   /// known, and so is a face neighbour of that one.
   void set(const CellField<Real>& fraction);
 
-  /// Sets mu of the faces with a film that have solid in their cell. Let d be the distance of the
-  /// cell's centre from the wall, and (1 - alpha_f) d that of the surface. The fluid between them
-  /// bears u_wall - u_c:
+  /// mu = mu_f at the faces with a film that have solid in their cell: as if the film were half a
+  /// cell thick.
+  void set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f) const;
+  /// After `set_viscosity` of all solids: mu of a film with a thickness; 0: as it is. Let d be the
+  /// distance of the cell's centre from the wall, and (1 - alpha_f) d that of the surface. The
+  /// fluid between them bears u_wall - u_c:
   ///   mu = mu_f / max(1 - alpha_f, thickness / d).
-  /// Without a thickness (0) mu = mu_f, as if the film were half a cell thick.
-  void set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha,
-                     const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const;
+  /// Where several solids share the cell, alpha_f is their sum.
+  void thin(FaceField<Real>& mu, const CellField<Real>& alpha, const FaceField<Real>& alpha_f,
+            Real mu_f, Real thickness) const;
 
   /// Collective. The largest distance of a cell's centre from its face with a film; 0: no film.
   Real largest_depth() const;
@@ -45,6 +48,8 @@ class WallFilm {
  private:
   /// Distance of the cell's centre from boundary face f.
   Real depth(Index f) const;
+  /// Whether boundary face f has a film, and its cell solid.
+  bool covers(Index f, const CellField<Real>& alpha) const;
 
   const Mesh& mesh_;
   CellField<Real> at_film_;         // 1 in cells with a film; owned and halo

@@ -131,7 +131,7 @@ void Solver::synchronise() {
   interface_faces_.clear();
   interface_L_f_.clear();
   for (Body& body : bodies_) transport_memory(body, L_);
-  for (Body& body : bodies_) transport_elastic(body, L_);
+  transport_elastic(L_);
   mix_density();
 }
 

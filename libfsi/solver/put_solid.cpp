@@ -148,6 +148,7 @@ void Solver::put_solid(const Solid& solid) {
   fractions_.push_back({.alpha = &body.alpha, .mid = &body.alpha_mid});
   if (bodies_.size() > 1) {
     separation_.emplace(mesh_, bodies_.size());
+    if (modes_.one_sided && !side_gradients_) side_gradients_.emplace(mesh_);
     if (!mixed_mu_) mixed_mu_.emplace(mesh_);
   }
   mix_viscosity(mu_);

@@ -208,8 +208,10 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
   if (!modes_.mu_varies)
     std::fill(mu.data() + mesh_.n_internal, mu.data() + mesh_.n_faces, physics_.mu_f);
   for (const Body& body : bodies_)
+    if (body.film) body.film->set_viscosity(mu, body.alpha, physics_.mu_f);
+  for (const Body& body : bodies_)
     if (body.film)
-      body.film->set_viscosity(mu, body.alpha, body.alpha_f, physics_.mu_f, body.film_thickness);
+      body.film->thin(mu, body.alpha, body.alpha_f, physics_.mu_f, body.film_thickness);
 }
 
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,
@@ -303,10 +305,16 @@ void Solver::advect_pressure_jump(CellField<Real>& p, const Body& body) {
   fsi::advect_pressure_jump(p, body);
 }
 
-void Solver::transport_elastic(Body& body, CellField<Tensor>& L) {
+void Solver::transport_elastic(CellField<Tensor>& L) {
   const Profile::Call call(profile_, calls_.transport_elastic);
-  fsi::transport_elastic(body, L, flow_around());
-  if (body.interface_gradient) take_interface_gradient(body, L);
+  if (side_gradients_) side_gradients_->begin(L);
+  for (Body& body : bodies_) {
+    fsi::transport_elastic(body, L, flow_around());
+    if (side_gradients_) side_gradients_->keep(L, body);
+  }
+  if (side_gradients_) side_gradients_->merge(L, bodies_);
+  for (const Body& body : bodies_)
+    if (body.interface_gradient) take_interface_gradient(body, L);
 }
 
 void Solver::add_elastic_force(CellField<Vec3>& force, Body& body) {
@@ -323,7 +331,7 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffnes
   stiff_->assign(kappa);
   for (const Body& body : bodies_)
     if (body.two_viscosities)
-      body.two_viscosities->traction.add_semi_implicit(*stiff_, body.alpha_f, body.band);
+      body.two_viscosities->traction.add_semi_implicit(*stiff_, kappa, body.alpha_f, body.band);
   if (!modes_.implicit_convection) return;
   Real rho = physics_.rho;
   for (const Body& body : bodies_) rho = std::max(rho, body.rho);

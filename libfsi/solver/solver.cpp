@@ -162,7 +162,7 @@ void Solver::step(Real dt) {
   set_velocity_gradient(L_, state_);                                                // (6)
   clear_forces();
   for (Body& body : bodies_) transport_memory(body, L_);       // (7)
-  for (Body& body : bodies_) transport_elastic(body, L_);      // (8)
+  transport_elastic(L_);                                       // (8)
   mix_viscosity(mu_);                                          // (9)
   mix_density();                                               // (10)
   for (Body& body : bodies_) add_elastic_force(force_, body);  // (11)

@@ -26,6 +26,7 @@
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
+#include "libfsi/solver/side_gradients.hpp"
 #include "libfsi/solver/solid_step.hpp"
 #include "libfsi/solver/state.hpp"
 #include "libfsi/vof/separate.hpp"
@@ -213,7 +214,7 @@ class Solver {
   void set_velocity_gradient(CellField<Tensor>& L, const State& state);
   void clear_forces();
   void transport_memory(Body& body, CellField<Tensor>& L);
-  void transport_elastic(Body& body, CellField<Tensor>& L);
+  void transport_elastic(CellField<Tensor>& L);
   void mix_viscosity(FaceField<Real>& mu);
   void mix_density();
   void add_elastic_force(CellField<Vec3>& force, Body& body);
@@ -361,9 +362,10 @@ class Solver {
   std::vector<vof::Fractions> fractions_;      // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
   std::optional<StrainByFlux> by_flux_;
-  bool leaves_ = false;      // whether a solid may leave the mesh
-  bool prescribed_ = false;  // whether all that flows in and out is given
-  Real passed_ = 0;          // the most of it so far
+  std::optional<SideGradients> side_gradients_;  // several solids, some one-sided
+  bool leaves_ = false;                          // whether a solid may leave the mesh
+  bool prescribed_ = false;                      // whether all that flows in and out is given
+  Real passed_ = 0;                              // the most of it so far
   std::optional<Backup> backup_;
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
