@@ -97,9 +97,9 @@ class PatchOptions {
   Condition velocity() {
     const Vec3 u = options_.vec3(of("velocity"), {},
                                  {.help = "velocity: the same everywhere", .unit = "velocity"});
-    const std::string file = options_.text_or_file(
-        of("velocity_file"), "",
-        "velocity: csv file of x,y,z,ux,uy,uz; linear about the nearest place");
+    const std::string file =
+        options_.text_or_file(of("velocity_file"), "",
+                              "velocity: csv file of x,y,z,ux,uy,uz; a spline between its places");
     require(options_.help() || options_.given(name_ + "velocity") || !file.empty(),
             "option -" + of("velocity") + " is missing: a patch of type velocity needs it or -" +
                 of("velocity_file"));
@@ -245,6 +245,9 @@ void check_keys(const Options& options, const Mesh& mesh, const std::string& pat
 }  // namespace
 
 Conditions read_patches(Options& options, const Mesh& mesh) {
+  const auto tell = [](const std::string& notice) {
+    if (rank() == 0 && !notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
+  };
   check_patch_names(options, mesh);
   Conditions conditions;
   for (const Patch& patch : mesh.patches) {
@@ -257,7 +260,7 @@ Conditions read_patches(Options& options, const Mesh& mesh) {
     PatchOptions of_patch(options, patch.name);
     conditions[patch.name] = of_patch.read(type);
     check_keys(options, mesh, patch.name, type, of_patch.keys());
-    if (of_patch.table()) of_patch.table()->check(mesh, patch);
+    if (of_patch.table() != nullptr) tell(of_patch.table()->check(mesh, patch));
   }
   return conditions;
 }

@@ -1,48 +1,52 @@
 #include "libfsi/run/velocity_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/messages.hpp"
 #include "libfsi/operators/least_squares.hpp"
 
 namespace fsi {
+namespace {
+
+std::array<Real, 3> key_of(const Vec3& x) { return {x.x, x.y, x.z}; }
+
+}  // namespace
 
 VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
-    : name_(std::move(name)), rows_(std::move(rows)), slope_(rows_.size()) {
+    : name_(std::move(name)), rows_(std::move(rows)) {
   require(!rows_.empty(), name_ + " has no rows");
-  Vec3 low = rows_[0].x, high = low;
-  for (const Row& row : rows_)
+  std::ranges::sort(rows_, {}, [](const Row& row) { return key_of(row.x); });
+  for (std::size_t i = 1; i < rows_.size(); ++i)
+    require(rows_[i].x != rows_[i - 1].x || rows_[i].u == rows_[i - 1].u,
+            name_ + " has two velocities at " + text_of(rows_[i].x) +
+                "; a file holds those of one time, and velocity_factor makes them change");
+  const auto same = std::ranges::unique(rows_, {}, &Row::x);
+  rows_.erase(same.begin(), same.end());
+  splines_.resize(rows_.size());
+
+  Vec3 low = rows_[0].x, high = low, mean;
+  for (const Row& row : rows_) {
+    mean += row.x / static_cast<Real>(rows_.size());
     for (int k = 0; k < 3; ++k)
       low[k] = std::min(low[k], row.x[k]), high[k] = std::max(high[k], row.x[k]);
+  }
   extent_ = norm(high - low);
+  constexpr Real spanned = 4e-4;  // of the largest moment: a fiftieth of the width
+  SymTensor moments;
+  for (const Row& row : rows_) moments += square(row.x - mean);
+  for_told_directions(moments, spanned, [&](Real, const Vec3& e) { axes_.push_back(e); });
 }
 
-const Tensor& VelocityTable::slope(std::size_t k) const {
-  if (slope_[k]) return *slope_[k];
-  const Row& here = rows_[k];
-  std::vector<Row> near;
-  for (const Row& row : rows_)
-    if (row.x != here.x) near.push_back(row);
-  std::ranges::sort(near, {}, [&](const Row& row) { return norm2(row.x - here.x); });
-  const auto fit = [&](std::size_t n) {
-    SlopeFit of_nearest;
-    for (std::size_t i = 0; i < n; ++i) of_nearest.add(near[i].x - here.x, near[i].u - here.u);
-    return of_nearest;
-  };
-  constexpr Real told = 0.02;  // of the spread in the widest direction
-  const auto directions = [](const SlopeFit& of_nearest) {
-    int count = 0;
-    for_told_directions(of_nearest.M, told, [&](Real, const Vec3&) { ++count; });
-    return count;
-  };
-  const int all = directions(fit(near.size()));
-  std::size_t n = std::min<std::size_t>(8, near.size());
-  while (n < near.size() && directions(fit(n)) < all) n = std::min(2 * n, near.size());
-  return slope_[k].emplace(fit(n).slope(told));
+Vec3 VelocityTable::local(const Vec3& x) const {
+  Vec3 s;
+  for (std::size_t k = 0; k < axes_.size(); ++k) s[static_cast<int>(k)] = dot(axes_[k], x);
+  return s;
 }
 
 std::size_t VelocityTable::nearest(const Vec3& x) const {
@@ -50,8 +54,22 @@ std::size_t VelocityTable::nearest(const Vec3& x) const {
   return static_cast<std::size_t>(std::ranges::min_element(rows_, {}, away) - rows_.begin());
 }
 
-void VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
-  if (extent_ == 0) return;
+const Spline& VelocityTable::around(std::size_t k) const {
+  constexpr std::size_t enough = 24;
+  if (splines_[k]) return *splines_[k];
+  std::vector<Row> near = rows_;
+  std::ranges::stable_sort(near, {}, [&](const Row& row) { return norm2(row.x - rows_[k].x); });
+  for (std::size_t n = std::min(enough, near.size());; n = std::min(2 * n, near.size())) {
+    std::vector<Spline::Point> points;
+    for (std::size_t i = 0; i < n; ++i)
+      points.push_back({local(near[i].x - rows_[k].x), near[i].u});
+    Spline spline(std::move(points), static_cast<int>(axes_.size()));
+    if (n == near.size() || spline.tells_slope()) return splines_[k].emplace(std::move(spline));
+  }
+}
+
+std::string VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
+  if (extent_ == 0) return "";
   constexpr Real none = std::numeric_limits<Real>::infinity();
   Real first = none, last = 0, farthest = 0;
   Vec3 low{none, none, none}, high = -1.0 * low;
@@ -73,11 +91,38 @@ void VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
   require(!far, its + "do not reach patch \"" + patch.name + "\"; are both in the same units?");
   require(!one, its + "are far wider than patch \"" + patch.name +
                     "\": all of its faces are nearest to one of them; are both in the same units?");
+  return tell_of_width(mesh, patch);
+}
+
+std::string VelocityTable::tell_of_width(const Mesh& mesh, const Patch& patch) const {
+  constexpr Real odd = 2, none = std::numeric_limits<Real>::infinity();
+  for (const Vec3& axis : axes_) {
+    Real low = none, high = -none, first = none, last = -none;
+    for (const Row& row : rows_)
+      low = std::min(low, dot(axis, row.x)), high = std::max(high, dot(axis, row.x));
+    for (Index f = patch.begin; f < patch.end; ++f)
+      for (const Index p : mesh.face_points[f]) {
+        const Real at = dot(axis, mesh.points[p]);
+        first = std::min(first, at), last = std::max(last, at);
+      }
+    const Real table = high - low, width = global_max(last) - global_min(first);
+    if (width > 0 && (table > odd * width || odd * table < width))
+      return name_ + print(": its places span %.3g, where patch ", table) + patch.name +
+             print(
+                 " spans %.3g: between and beyond them the velocity is guessed, see the flow "
+                 "rate; are both in the same units?",
+                 width);
+  }
+  return "";
 }
 
 Vec3 VelocityTable::operator()(const Vec3& x) const {
-  const std::size_t k = nearest(x);
-  return rows_[k].u + dot(slope(k), x - rows_[k].x);
+  const auto [known, is_new] = known_.try_emplace(key_of(x));
+  if (!is_new) return known->second;
+  // A small table has one spline, so that the velocity is smooth.
+  constexpr std::size_t small = 24;
+  const std::size_t k = rows_.size() <= small ? 0 : nearest(x);
+  return known->second = around(k)(local(x - rows_[k].x));
 }
 
 }  // namespace fsi

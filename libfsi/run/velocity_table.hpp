@@ -1,24 +1,22 @@
 #pragma once
 // A velocity given at some points.
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libfsi/core/types.hpp"
 #include "libfsi/mesh/mesh.hpp"
+#include "libfsi/run/spline.hpp"
 
 namespace fsi {
 
-/// The velocity around the points of a table, such as a measured profile. About the point x_k
-/// nearest to x it is linear:
-///
-///   u(x) = u_k + L_k . (x - x_k).
-///
-/// L_k is a least-squares fit over the eight points nearest to x_k, or over as many more as are
-/// needed to span all directions that the table spans. In other directions, across a plane or a
-/// line of points, L_k is zero. It is exact for a linear velocity, and of second order in the
-/// distance of the points.
+/// The velocity between the points of a table, such as a measured profile: a `Spline` through the
+/// 24 points around x, or through as many more as are needed to tell the slope in all directions
+/// that the table spans. In other directions, across a plane or a line of points, the velocity is
+/// constant. It is exact for a linear velocity and, with enough points, for a parabola.
 class VelocityTable {
  public:
   /// A point and the velocity there.
@@ -27,26 +25,34 @@ class VelocityTable {
     Vec3 u;  ///< velocity
   };
 
-  /// name: what errors call the table. Errors: Error{input} where it has no row.
+  /// name: what errors call the table. Errors: Error{input} where it has no row, or two velocities
+  /// at one point.
   VelocityTable(std::string name, std::vector<Row> rows);
 
   /// Collective. Errors: Error{input} if the table seems to be that of another patch or in other
   /// units. That is so if a face lies farther from all points than ten times their extent. It is
   /// also so if the table is a hundred times as wide as the patch and all faces are nearest to the
-  /// same point. A table of one point holds everywhere.
-  void check(const Mesh& mesh, const Patch& patch) const;
+  /// same point. A table of one point holds everywhere. Returns a notice if the table is less than
+  /// half or more than twice as wide as the patch, in a direction that it spans; else "".
+  std::string check(const Mesh& mesh, const Patch& patch) const;
 
-  /// u(x).
+  /// u(x). What was computed for a point is kept.
   Vec3 operator()(const Vec3& x) const;
 
  private:
+  /// x in the directions that the table spans.
+  Vec3 local(const Vec3& x) const;
   std::size_t nearest(const Vec3& x) const;
-  const Tensor& slope(std::size_t k) const;
+  /// The spline of the points around the k-th.
+  const Spline& around(std::size_t k) const;
+  std::string tell_of_width(const Mesh& mesh, const Patch& patch) const;
 
   std::string name_;
   std::vector<Row> rows_;
-  Real extent_ = 0;                                   // the diagonal of the box around the points
-  mutable std::vector<std::optional<Tensor>> slope_;  // [rows], those computed so far
+  std::vector<Vec3> axes_;                              // that the table spans, orthonormal
+  Real extent_ = 0;                                     // the diagonal of the points' box
+  mutable std::vector<std::optional<Spline>> splines_;  // [rows], those computed so far
+  mutable std::map<std::array<Real, 3>, Vec3> known_;   // results so far
 };
 
 }  // namespace fsi

@@ -43,7 +43,7 @@ TEST(VelocityTable, TakesRowsFarApart) {
     EXPECT_LT(norm(table(x) - Vec3{1 + 2 * x.y, 0, 0}), 1e-12);
 }
 
-TEST(VelocityTable, IsOfSecondOrder) {
+TEST(VelocityTable, IsOfThirdOrder) {
   const auto u = [](const Vec3& x) { return Vec3{std::sin(3 * x.y) * std::cos(2 * x.z), 0, 0}; };
   const auto error = [&](int n) {
     const VelocityTable table = table_of(n, u);
@@ -55,7 +55,48 @@ TEST(VelocityTable, IsOfSecondOrder) {
       }
     return std::sqrt(sum);
   };
-  EXPECT_GT(std::log2(error(10) / error(20)), 1.8);
+  EXPECT_GT(std::log2(error(10) / error(20)), 2.7);
+}
+
+// A parabola in a tube that stands obliquely, by eight places, and one between plates by four.
+TEST(VelocityTable, IsExactForAParabola) {
+  const Vec3 n{0.6, 0.64, 0.48}, a{0.8, -0.48, -0.36}, b{0, 0.6, -0.8}, middle{3, -2, 5};
+  const auto u = [&](const Vec3& x) { return (1 - norm2(x - middle)) * n; };
+  std::vector<VelocityTable::Row> rows;
+  for (int i = 0; i < 8; ++i) {
+    const Real r = 0.3 + 0.08 * i, angle = 2.4 * i;
+    const Vec3 x = middle + r * std::cos(angle) * a + r * std::sin(angle) * b;
+    rows.push_back({.x = x, .u = u(x)});
+  }
+  const VelocityTable tube("tube.csv", rows);
+  for (const Vec3& x : {middle, middle + 0.9 * a, middle - 0.5 * a + 0.7 * b})
+    EXPECT_LT(norm(tube(x) - u(x)), 1e-12);
+  std::vector<VelocityTable::Row> line;
+  for (const Real y : {0.1, 0.3, 0.5, 0.9})
+    line.push_back({.x = {0, y, 0}, .u = {y * (1 - y), 0, 0}});
+  const VelocityTable slit("slit.csv", line);
+  for (const Real y : {0.0, 0.2, 0.77, 1.0}) EXPECT_NEAR(slit({0, y, 0}).x, y * (1 - y), 1e-13);
+}
+
+TEST(VelocityTable, RefusesTwoVelocitiesAtOnePlace) {
+  EXPECT_THROW(VelocityTable("two.csv", {{.x = {0, 1, 0}, .u = {1, 0, 0}},
+                                         {.x = {0, 2, 0}, .u = {1, 0, 0}},
+                                         {.x = {0, 1, 0}, .u = {2, 0, 0}}}),
+               Error);
+}
+
+TEST(VelocityTable, TellsOfAnotherWidth) {
+  const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = {2, 1, 1}});
+  const auto told = [&](Real width) {
+    std::vector<VelocityTable::Row> rows;
+    for (int i = 0; i < 9; ++i)
+      rows.push_back({.x = {2, 0.5 + width * (i / 8.0 - 0.5), 0.5}, .u = {1, 0, 0}});
+    return VelocityTable("line.csv", rows).check(mesh, mesh.patch("right"));
+  };
+  EXPECT_EQ(told(1), "");
+  EXPECT_EQ(told(0.6), "");
+  EXPECT_NE(told(0.3).find("span 0.3, where patch right spans 1"), std::string::npos) << told(0.3);
+  EXPECT_NE(told(5), "");
 }
 
 TEST(VelocityTable, TellsPlacesOfElsewhere) {
