@@ -172,11 +172,18 @@ void Checkpoint::keep_two() const {
     std::filesystem::remove(path(numbers[i]), code);
 }
 
-void Checkpoint::clear() const {
-  if (rank() != 0) return;
+std::string Checkpoint::clear(bool keep) const {
+  if (rank() != 0) return "";
+  const std::vector<std::int64_t> numbers = numbers_in(directory_);
+  std::string kept;
   std::error_code code;
-  for (const std::int64_t number : numbers_in(directory_))
-    std::filesystem::remove(path(number), code);
+  if (keep && !numbers.empty()) {
+    const std::string newest = path(numbers.back());
+    std::filesystem::rename(newest, newest + ".before", code);
+    if (!code) kept = newest + ".before";
+  }
+  for (const std::int64_t number : numbers) std::filesystem::remove(path(number), code);
+  return kept;
 }
 
 std::uint64_t Checkpoint::rows(Location on) const {

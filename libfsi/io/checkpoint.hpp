@@ -77,8 +77,9 @@ class Checkpoint {
   /// Collective. Removes what an interrupted write left behind.
   Checkpoint(std::string directory, const Mesh& mesh);
 
-  /// Removes the checkpoints of an earlier run.
-  void clear() const;
+  /// Removes the checkpoints of an earlier run. keep: but for the newest, which gets the ending
+  /// ".before". Returns its new name; "" where there is none. Rank 0 alone.
+  std::string clear(bool keep) const;
 
   /// Collective. Returns whether it was written. A disk that is full or forbids it is no error: a
   /// warning is printed, the older checkpoints stay and the run may continue. Errors:

@@ -4,14 +4,16 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
-#include "libfsi/io/checkpoint.hpp"
 #include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
@@ -125,6 +127,28 @@ std::string changes_of_flow(const Solver& solver, const Case& setup, const std::
 
 void tell_of_changes(const std::string& sentence) {
   if (rank() == 0 && !sentence.empty()) std::fprintf(stderr, "fsi: notice: %s\n", sentence.c_str());
+}
+
+void begin_anew(const std::string& directory, const io::Checkpoint& checkpoints) {
+  if (rank() != 0) return;
+  std::ifstream file(directory + "/summary.json");
+  const std::string summary{std::istreambuf_iterator<char>(file), {}};
+  const bool ended =
+      summary.empty() || summary.find(R"("status": "complete")") != std::string::npos;
+  const std::string kept = checkpoints.clear(!ended);
+  if (!kept.empty())
+    std::fprintf(stderr,
+                 "fsi: notice: the run before in \"%s\" did not come to its end; its checkpoint is "
+                 "kept as \"%s\" (without .before it is the one that -restart goes on from)\n",
+                 directory.c_str(), kept.c_str());
+  std::error_code code;
+  std::vector<std::filesystem::path> tables;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, code)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "solid.csv" || (name.starts_with("solid_") && name.ends_with(".csv")))
+      tables.push_back(entry.path());
+  }
+  for (const std::filesystem::path& table : tables) std::filesystem::remove(table, code);
 }
 
 void tell_of_start(const State& state, Real end, const std::string& file) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <string>
 
+#include "libfsi/io/checkpoint.hpp"
 #include "libfsi/run/case.hpp"
 
 namespace fsi {
@@ -38,6 +39,10 @@ void tell_of_changes(const std::string& sentence);
 /// Prints from where a run goes on; file: its checkpoint. Errors: Error{input} if the checkpoint is
 /// of a time behind the end of the run.
 void tell_of_start(const State& state, Real end, const std::string& file);
+
+/// Removes the checkpoints and the tables of solids of an earlier run. Where that run did not come
+/// to its end, its newest checkpoint is set aside, and a notice says so.
+void begin_anew(const std::string& directory, const io::Checkpoint& checkpoints);
 
 /// Tables, fields and checkpoints are of the `before` solids that were there at the start. Errors:
 /// Error{input} if the solver has another number of them.

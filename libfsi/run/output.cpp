@@ -49,7 +49,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
   if (setup.output.restart) {
     go_on_from_checkpoint();
   } else {
-    checkpoints_.clear();
+    begin_anew(setup.output.directory, checkpoints_);
     checkpoint_.resume(solver_.state().t);  // the start needs none
     samples_.resume(solver_.state().t, "none");
     if (!setup.flow_from.empty()) tell_of_changes(changes_of_flow(solver_, setup, simulated_));
@@ -375,7 +375,7 @@ RunStatus Output::finish() {
     if ((!complete || case_.output.checkpoint_interval > 0) && !saved()) write_checkpoint();
     if (!failure.empty()) write_last_fields();
     if (complete && case_.output.again && case_.output.checkpoint_interval <= 0)
-      checkpoints_.clear();
+      checkpoints_.clear(false);
     if (failure.empty() && !complete && !saved())
       throw Error(ErrorKind::io, "the run was interrupted and its checkpoint could not be written");
     const std::string status = complete ? "complete" : failure.empty() ? "interrupted" : "failed";

@@ -14,8 +14,8 @@
 namespace fsi {
 
 /// The velocity between the points of a table, such as a measured profile: a `Spline` through the
-/// 24 points around x, or through as many more as are needed to tell the slope in all directions
-/// that the table spans. In other directions, across a plane or a line of points, the velocity is
+/// 24 points around x. More points are taken where 24 do not tell the slope in all directions that
+/// the table spans. In other directions, across a plane or a line of points, the velocity is
 /// constant. It is exact for a linear velocity and, with enough points, for a parabola.
 class VelocityTable {
  public:

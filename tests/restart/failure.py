@@ -188,6 +188,16 @@ def main():
           os.path.exists(os.path.join(out, last["name"])),
           f"the fields of the last good state are there: {last}, t = {state['t']}: {failed.stderr}")
 
+    # A new run in the folder of one that did not end keeps its checkpoint, and none of its tables of solids.
+    with open(os.path.join(out, "solid_other.csv"), "w", encoding="utf-8") as table:
+        table.write("t,x\n0,0\n")
+    anew = run([*command, "-time_end", "0.02", "-output_interval", "0"])
+    kept = [name for name in os.listdir(out) if name.endswith(".before")]
+    check(anew.returncode == 0 and len(kept) == 1 and f"is kept as \"{os.path.join(out, kept[0])}" in anew.stderr,
+          f"the checkpoint of a run that did not end is kept: {kept}: {anew.stderr}")
+    check(not os.path.exists(os.path.join(out, "solid_other.csv")), "tables of a solid that is not there are removed")
+    check(".before" not in run([*command, "-time_end", "0.02"]).stderr, "that of one that did is not")
+
     check_rejections(drivers, source, folder, "the solid strains too much in the step",
                      ["-time_end", "6", "-time_step", "0.075", "-solid_shear_modulus", "0.01",
                       "-solid_center", "0.5,0.65,0", "-solid_radius", "0.3"])
