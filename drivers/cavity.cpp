@@ -16,7 +16,7 @@ RunStatus body() {
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(setup.mesh);
   setup.flow.conditions = {{"top", Wall{{lid, 0, 0}}}, {"wall", Wall{}}};
-  describe(setup, mesh, 1, std::abs(lid));
+  describe(setup, mesh, width_across(mesh, 1), std::abs(lid));
 
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);

@@ -26,7 +26,7 @@ RunStatus body() {
     if (patch.name == "symmetry") setup.flow.conditions["symmetry"] = Slip{};
   setup.flow.frame = {frame, 0, 0};
   setup.flow.mean_velocity = mean - frame;
-  describe(setup, mesh, 1, 2 * mean);
+  describe(setup, mesh, width_across(mesh, 0), (mesh.dim == 2 ? 1.5 : 2) * mean);
 
   // 3 solver and initial state
   Solver solver(mesh, setup.physics, setup.flow);

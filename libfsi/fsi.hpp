@@ -13,6 +13,7 @@
 #include "libfsi/io/manifest.hpp"
 #include "libfsi/io/table.hpp"
 #include "libfsi/mesh/convert.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/mesh/quality.hpp"
 #include "libfsi/mesh/read.hpp"

@@ -75,6 +75,14 @@ Box extent(const Mesh& mesh) {
   return box;
 }
 
+Real width_across(const Mesh& mesh, int axis) {
+  const Box box = extent(mesh);
+  Real most = 0;
+  for (int k = 0; k < mesh.dim; ++k)
+    if (k != axis) most = std::max(most, box.high[k] - box.low[k]);
+  return most;
+}
+
 std::string text_of(const Box& box) {
   return print("from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)", box.low.x, box.low.y, box.low.z,
                box.high.x, box.high.y, box.high.z);

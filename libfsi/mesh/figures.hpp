@@ -27,6 +27,8 @@ struct Box {
 
 /// Collective. The least box around the mesh.
 Box extent(const Mesh& mesh);
+/// Collective. The largest extent of the mesh along the axes other than x (0), y (1) or z (2).
+Real width_across(const Mesh& mesh, int axis);
 
 /// "from (x, y, z) to (x, y, z)".
 std::string text_of(const Box& box);

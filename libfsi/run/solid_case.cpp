@@ -160,10 +160,18 @@ void place(Options& options, const std::string& of, SolidSetup& solid) {
       shapes::translate(shapes::rotate(solid.about_origin, {0, 0, 1}, turn), centre);
 }
 
-/// Adds the solid of the options that begin with `of`; none where its shape is "none", whose other
-/// options are checked but not recorded.
+/// Whether -solid_shape none, and no other option of a single solid, stands beside several solids.
+/// So the command line leaves the solids of any case out.
+bool leaves_solids_out(const Options& options) {
+  Options aside(options);
+  return options.names("solid_", "") == std::vector<std::string>{"shape"} &&
+         !options.names("solids_", "_shape").empty() && aside.text("solid_shape", "", "") == "none";
+}
+
+/// Adds the solid of the options that begin with `of`; none if it is left out or its shape is
+/// "none". The other options of that one are checked but not recorded.
 void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::string& of,
-               const std::string& name, const Physics& physics) {
+               const std::string& name, const Physics& physics, bool left_out = false) {
   SolidSetup solid;
   solid.solid.name = name;
   solid.options = of;
@@ -171,6 +179,7 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
                                     "undeformed shape; none: no solid, in two dimensions sphere is "
                                     "a disc. Of several solids each has all of these options under "
                                     "a name of its own: -solids_NAME_shape ...");
+  if (left_out) solid.shape_name = "none";
   const bool none = solid.shape_name == "none";
   Options aside(options);
   Options& read = none && !options.help() ? aside : options;
@@ -189,6 +198,8 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
       of + "memory", true,
       "log_conformation: carry a map to the undeformed solid too, and hold shape and strain to "
       "it; reference_map: hold the shape to its map; left_cauchy_green: no effect");
+  solid.solid.trim = read.flag(of + "trim", false,
+                               "the part of the shape beyond the mesh is cut off, not refused");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
   solid.solid.by_default = sizes_by_default(read, of, solid.shape_name);
   place(read, of, solid);
@@ -223,12 +234,14 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   std::vector<SolidSetup> solids;
   const std::vector<std::string> names = options.names("solids_", "_shape");
   const std::vector<std::string> alone = options.names("solid_", "");
-  if (!names.empty() && !alone.empty() && !options.help())
+  const bool left_out = leaves_solids_out(options);
+  if (!names.empty() && !alone.empty() && !options.help() && !left_out)
     throw Error(ErrorKind::input, "option -solid_" + alone.front() + " stands beside -solids_" +
                                       names.front() + "_shape: give one solid or a list of solids");
-  if (names.empty() || options.help()) add_solid(solids, options, "solid_", "", physics);
+  if (names.empty() || options.help() || left_out)
+    add_solid(solids, options, "solid_", "", physics);
   for (const std::string& name : names)
-    add_solid(solids, options, "solids_" + name + "_", name, physics);
+    add_solid(solids, options, "solids_" + name + "_", name, physics, left_out);
   if (!options.help()) check_shapes(options, names);
   return solids;
 }
@@ -295,7 +308,8 @@ std::vector<std::string> solids_without_shape(const Options& options) {
   for (const std::string& name : options.names("solids_", "_shape"))
     begins.push_back("solids_" + name + "_");
   for (const std::string& of : begins)
-    if (options.given(of + "shape") && aside.text(of + "shape", "", "") == "none")
+    if (options.given(of + "shape") &&
+        (aside.text(of + "shape", "", "") == "none" || leaves_solids_out(options)))
       found.push_back(of);
   return found;
 }

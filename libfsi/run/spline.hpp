@@ -18,8 +18,8 @@ class Spline {
  public:
   /// A place, with zeros behind its first `dim` components, and the velocity there.
   struct Point {
-    Vec3 s;
-    Vec3 u;
+    Vec3 s;  ///< place
+    Vec3 u;  ///< velocity
   };
   /// points: at least one; no place twice.
   Spline(std::vector<Point> points, int dim);

@@ -143,7 +143,8 @@ void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
         mesh, zone, solid::BoundarySides{.given = on_faces(walls, mesh), .symmetry = mirror});
     kink_profile.emplace(mesh);
   }
-  if (extended() && mu != physics.mu_f && mu <= solid::SurfaceTraction::ratio_max * physics.mu_f)
+  const bool moderate = mu <= solid::SurfaceTraction::ratio_max * physics.mu_f;
+  if (extended() && mu != physics.mu_f && (moderate || zone.any()))
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);

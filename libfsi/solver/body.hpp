@@ -55,7 +55,8 @@ struct Body {
   /// Collective. Fills the undeformed shape. mirrors: planes of symmetry, which may cut it; walls:
   /// patches whose velocity is given, inlets too; still: those of them that never move. If its
   /// viscosity is not the fluid's, the surface gets an explicit traction. There is none beyond
-  /// SurfaceTraction::ratio_max and with left_cauchy_green.
+  /// SurfaceTraction::ratio_max on meshes without triangles and tetrahedra, and with
+  /// left_cauchy_green.
   Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
        const std::vector<Patch>& mirrors = {}, const std::vector<Patch>& walls = {},
        const std::vector<Patch>& still = {});

@@ -38,6 +38,9 @@ struct Solid {
   /// log_conformation: least thickness of the film of fluid between this solid and a wall, for the
   /// friction in it; 0: half a cell (solid/wall_film.hpp).
   Real film_thickness = 0;
+  /// Whether the part of the shape beyond the mesh is cut off, so that a sphere about a point of a
+  /// wall makes a half sphere on it. Else such a shape is refused.
+  bool trim = false;
   /// Whether the checkpoint of a restart is about to replace its state. It may then overlap other
   /// solids, which have left the place where it enters.
   bool from_checkpoint = false;

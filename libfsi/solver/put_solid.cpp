@@ -46,10 +46,11 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
                     sizes + "; the mesh reaches " + text_of(extent(mesh)) +
                     ": look whether both are in the same unit");
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
-  require(body.filled.clearance > -touching,
+  require(solid.trim || body.filled.clearance > -touching,
           which + " sticks out of the mesh, whose boundary reaches " +
-              print("%.4g", -body.filled.clearance) + " deep into it: move it or make it smaller" +
-              sizes);
+              print("%.4g", -body.filled.clearance) +
+              " deep into it: move it or make it smaller, " +
+              "or let the mesh cut it (option trim of the solid)" + sizes);
   constexpr Real rounding = 1e-6;
   require(
       body.filled.steepest <= 1 + rounding,
@@ -77,6 +78,19 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
     require(global_max(most) < error_of_fill,
             which + " overlaps " + called(other) + " at the start: move one of them" + sizes);
   }
+}
+
+/// Errors: Error{input} where a plane of symmetry cuts the body and its weight acts across it: the
+/// image would have another weight.
+void require_symmetric_weight(const Body& body) {
+  constexpr Real rounding = 1e-9;
+  for (const geometry::Mirror& mirror : body.filled.cut_by.planes)
+    require(std::abs(dot(body.weight, mirror.n)) <= rounding * norm(body.weight),
+            called(body) +
+                print(" is cut by a plane of symmetry with the normal (%.3g, %.3g, %.3g), and its "
+                      "weight or acceleration acts across this plane, where its image has the "
+                      "opposite one: give a mesh of the whole scene",
+                      mirror.n.x, mirror.n.y, mirror.n.z));
 }
 
 /// Errors: Error{input} where the body has a cell between two of these planes, which then has no
@@ -139,6 +153,7 @@ void Solver::put_solid(const Solid& solid) {
   body.t_begun = state_.t;
   try {
     require_place(body, solid, bodies_, mesh_);
+    require_symmetric_weight(body);
     require_depth(body, mirrors, mesh_);
   } catch (const Error&) {
     bodies_.pop_back();  // all ranks throw alike

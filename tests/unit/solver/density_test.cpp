@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -102,6 +103,23 @@ TEST(Density, LeavesAStillColumnAtRest) {
 }
 
 /// Two solids of different densities, the light one below or above, apart or in touch.
+// Half a disc, whose image beyond the plane of symmetry would fall the other way.
+TEST(Density, RefusesAWeightAcrossAPlaneOfSymmetry) {
+  const Mesh mesh = test::read_box({.n = {16, 8, 0}, .length = {2, 1, 1}});
+  for (const Vec3& down : {Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.1, .gravity = down},
+        {.conditions = {{"bottom", Slip{}}, {"top", Wall{}}, {"left", Wall{}}, {"right", Wall{}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    const Solid half{.shape = shapes::translate(shapes::sphere(0.3), {1, 0, 0}), .G = 1, .rho = 2};
+    if (down.y == 0) {
+      solver.put_solid(half);
+    } else {
+      EXPECT_THROW(solver.put_solid(half), Error);
+    }
+  }
+}
+
 TEST(Density, LeavesTwoLayersAtRest) {
   for (const Column& column :
        {Column{.mesh = "quads", .middle = 0.32, .above = 0.5, .gap = 0.11},

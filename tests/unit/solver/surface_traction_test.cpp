@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/momentum.hpp"
+#include "libfsi/shapes/shapes.hpp"
 #include "libfsi/solid/law/laws.hpp"
 #include "libfsi/solid/surface_traction.hpp"
-#include "libfsi/solver/body.hpp"
+#include "libfsi/solver/solver.hpp"
 #include "tests/unit/support/box_file.hpp"
 
 namespace fsi {
@@ -124,6 +126,31 @@ TEST(SurfaceTraction, TakesTheStressOfTheLaw) {
 TEST(SurfaceTraction, KnowsObliqueCells) {
   EXPECT_LT(left_over(1, {5, 1}, 0, 0.02), 0.25);
   EXPECT_LT(left_over(1, {5, 1}, 0, 0.04), 0.42);
+}
+
+// A light disc that rises in a closed box of triangles hardly feels its own viscosity.
+TEST(SurfaceTraction, HoldsAtAHundredTimesTheViscosityOnTriangles) {
+  const Mesh mesh = test::read_box({.n = {24, 36, 0}, .length = {1, 1.5, 1}, .simplex = true});
+  const auto rise = [&](Real mu) {
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0.02, .gravity = {0, -1, 0}},
+        {.conditions = {{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    const shapes::Shape disc = shapes::translate(shapes::sphere(0.15), {0.5, 0.75, 0});
+    solver.put_solid({.shape = disc, .G = 1, .mu = mu, .rho = 0.5});
+    for (int i = 0; i < 200; ++i) solver.step(0.003);
+    std::array<Sum, 2> sums;
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const Real V = mesh.V[c] * solver.body()->alpha[c];
+      sums[0].add(V * solver.state().u[c].y), sums[1].add(V);
+    }
+    std::array<Real, 2> total{};
+    Sum::totals(total, sums);
+    return total[0] / total[1];
+  };
+  const Real speed = rise(0.8);
+  EXPECT_GT(speed, 0.03);
+  EXPECT_NEAR(rise(2), speed, 0.05 * speed);
 }
 
 }  // namespace

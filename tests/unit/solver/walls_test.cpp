@@ -303,6 +303,29 @@ std::array<Real, 2> loaded_layer(Index n, bool simplex, KinematicsKind kinematic
 
 // The map of a layer that is bonded to a wall at rest stays zero there. Without that nothing holds
 // the map at the wall, and psi, drawn to it, lets the layer slide.
+// A layer on the floor, and one of twice the height that the floor cuts.
+TEST(Walls, TheMeshCutsASolidThatIsToBeTrimmed) {
+  const Mesh mesh = test::read_box({.n = {6, 12, 0}, .periodic = {"left", "right"}});
+  std::vector<Vec3> u[2];
+  for (const bool trim : {false, true}) {
+    Solver solver(mesh, {.rho = 1, .mu_f = 0.1},
+                  {.conditions = {{"bottom", Wall{}}, {"top", Wall{{1, 0, 0}}}}});
+    solver.start([](const Vec3&) { return Vec3{}; });
+    const shapes::Shape box = shapes::box({9, trim ? 0.7 : 0.35, 9});
+    Solid solid{.shape = shapes::translate(box, {0, trim ? 0 : 0.175, 0}), .G = 1, .mu = 0.1};
+    if (trim) {
+      EXPECT_THROW(solver.put_solid(solid), Error);
+    }
+    solid.trim = trim;
+    solver.put_solid(solid);
+    EXPECT_EQ(solver.body()->bonded_faces, 6);
+    EXPECT_NEAR(solver.body()->filled.volume, 0.35, 1e-9);
+    for (int i = 0; i < 20; ++i) solver.step(0.02);
+    for (Index c = 0; c < mesh.n_owned; ++c) u[trim ? 1 : 0].push_back(solver.state().u[c]);
+  }
+  for (std::size_t c = 0; c < u[0].size(); ++c) EXPECT_LT(norm(u[0][c] - u[1][c]), 1e-7);
+}
+
 TEST(Walls, ALayerOnOneBearsALastingLoad) {
   struct Scene {
     Index n;
