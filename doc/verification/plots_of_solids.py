@@ -52,6 +52,21 @@ def inclusion():
     return figure
 
 
+def lodging():
+    figure, left, right = panels()
+    found = [(row[0], values(row[1]), values(row[3])) for row in rows("lodging")]
+    pressures = [0.5, 1, 1.4]
+    lines(left, [(name, pressures if len(x) == 3 else [1], x) for name, x, _ in found],
+          "pressure at the inlet", "x of the centroid at rest", log="")
+    names = [name for name, _, held in found if held]
+    for i, held in enumerate(held for _, _, held in found if held):
+        right.plot([held[0], held[-1]], [i, i], "|-", color=BLUE if i else ORANGE, markersize=9)
+    right.set(yticks=range(len(names)), xlabel="largest pressure held")
+    right.set_yticklabels(names, fontsize=7.5)
+    legend(figure, left, 3)
+    return figure
+
+
 def kinematics():
     figure, left, right = panels()
     names = ("left_cauchy_green", "log_conformation", "reference_map")
@@ -277,6 +292,6 @@ def torus():
     return figure
 
 
-PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, mesh_quality, paper_mesh,
+PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, lodging, mesh_quality, paper_mesh,
             paper_throat, passing_discs, reference_map, settling, shape, shear, slab, stability,
             stiff, stiff_rings, torus)

@@ -28,7 +28,7 @@ AXIS = {"nx", "ny", "nz", "angle", "turned", "taylor_angle"}
 LONGEST = {"lx", "ly", "lz", "long_angle"}  # nor has the longest direction of a ring
 # Where a section passes a corner of a cell it gains a piece: 1e-8 in the surface, 1e-3 in this angle.
 SECTIONS = {"bending_meridian"}
-ROUND = {"cavity_disc", "shear", "two_discs", "stenosis_sphere", "vortex", "bend", "bifurcation"}
+ROUND = {"cavity_disc", "shear", "two_discs", "stenosis_sphere", "vortex", "bend", "bifurcation", "lodging"}
 failures = []
 
 
