@@ -40,7 +40,7 @@ struct LinearSystem::Handles {
     std::copy(from.diagonal.begin(), from.diagonal.end(), values.begin());
     // A pinned singular system with a right-hand side of zero sum has the solution that vanishes
     // in the pinned cell: summing all rows leaves a_00 x_0 = 0.
-    if (pinned && rank() == 0 && n > 0) values[0] *= 2;
+    if (pinned && n > 0 && mesh.global_id[0] == 0) values[0] *= 2;
     for (std::size_t e = 0; e < face.size(); ++e) values[n + e] = from.off_diagonal[face[e]];
     FSI_PETSC(MatSetValuesCOO(to, values.data(), INSERT_VALUES));
   }

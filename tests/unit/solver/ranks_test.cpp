@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <variant>
 #include <vector>
@@ -125,6 +126,23 @@ TEST(Ranks, HoldOneStateOfAnOrthogonalProjection) {
 TEST(Ranks, HoldOneStateOfABall) {
   for (const bool simplex : {false, true})
     expect_one_state({.n = {8, 8, 8}, .simplex = simplex, .steps = 10});
+}
+
+// Without an opening the pressure is known but for a constant. It vanishes in the first cell of the
+// file, whichever rank has this cell.
+TEST(Ranks, ThePressureOfAClosedBoxHasTheSameLevel) {
+  const Mesh mesh = test::read_box({.n = {8, 24, 0}, .length = {1, 3, 1}});
+  Conditions conditions{{"top", Wall{{1, 0, 0}}}};
+  for (const char* name : {"left", "right", "bottom"}) conditions[name] = Wall{};
+  Solver solver(mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = conditions});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  for (int i = 0; i < 5; ++i) solver.step(0.02);
+  Real first = 0, most = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    most = std::max(most, std::abs(solver.state().p[c]));
+    if (mesh.global_id[c] == 0) first = std::abs(solver.state().p[c]);
+  }
+  EXPECT_LT(global_max(first), 1e-5 * global_max(most));
 }
 
 }  // namespace
