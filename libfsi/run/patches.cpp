@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -77,7 +78,24 @@ class PatchOptions {
     require(!text.empty(), "option -" + of(key) + " is missing: " + help);
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
-    return series(text, period, {key, symbol, "value"}, of(key));
+    const OfTime values = series(text, period, {key, symbol, "value"}, of(key));
+    tell_of_constant(values, text, key, symbol);
+    return values;
+  }
+  /// A notice if a table varies, but not during the run.
+  void tell_of_constant(const OfTime& values, const std::string& file, const std::string& key,
+                        const std::string& symbol) {
+    Options aside(options_);
+    const Real end = aside.real("time_end", 1, {.help = ""});
+    const auto [least, most] = values.range(0, end);
+    const auto rows = read_rows(file, {{"t", "time"}, {key, symbol, "value"}}, of(key));
+    const auto other = [&](const std::vector<Real>& row) { return row[1] != rows[0][1]; };
+    if (rank() == 0 && end > 0 && least == most && std::ranges::any_of(rows, other))
+      std::fprintf(
+          stderr,
+          "fsi: notice: file \"%s\": its values are %g during the whole run to t = %g; its "
+          "times go from %g to %g: are both in the same units?\n",
+          file.c_str(), most, end, rows.front()[0], rows.back()[0]);
   }
 
   Condition wall() {

@@ -193,8 +193,8 @@ Real Solver::advance(Real dt) {
     throw Error(ErrorKind::numerics, report_.failure);
   report_.failure.clear();
   failed_step_ = state_.step, failed_dt_ = dt;  // of no meaning but with a failure
-  if (!balanced(state_.t + dt)) return 0;
   keep_backup();
+  if (!balanced(state_.t + dt)) return 0;
   dt_cap_ = std::min(step_growth * dt_cap_, std::numeric_limits<Real>::max());
   report_.held_back = dt > dt_cap_;
   dt = std::min(dt, dt_cap_);

@@ -89,6 +89,11 @@ def check_meshes(source, drivers, folder):
                   "0.0001", "-patches_inlet_type", "pressure", "-patches_outlet_type", "pressure"]
     said = run(round_wall, folder)
     check(said.returncode == 0 and "curved" not in said.stderr, "a round wall is nothing odd: " + said.stderr)
+    with open(os.path.join(folder, "late.csv"), "w", encoding="utf-8") as file:
+        file.write("t,p\n5,1\n6,2\n")
+    said = run(round_wall + ["-patches_inlet_pressure", "late.csv"], folder)
+    check(said.returncode == 0 and "its values are 1 during the whole run" in said.stderr,
+          "a table of other times is told of: " + said.stderr)
     said = run(round_wall + ["-patches_wall_type", "symmetry"], folder)
     check(said.returncode == 0 and 'patch "wall" of type symmetry is curved' in said.stderr,
           "a round plane of symmetry is: " + said.stderr)
