@@ -21,7 +21,8 @@ RunStatus body() {
   describe(setup, mesh, 1, 1);
 
   // 3 the interface
-  PrescribedAdvection carried(mesh, motion, shape_in(mesh.dim, setup.solids[0]));
+  PrescribedAdvection carried(mesh, motion, shape_in(mesh.dim, setup.solids[0]),
+                              setup.solids[0].solid.trim);
 
   // 4 what to write
   PrescribedAdvectionOutput output(setup, options, carried);

@@ -137,16 +137,20 @@ void begin_anew(const std::string& directory, const io::Checkpoint& checkpoints)
       summary.empty() || summary.find(R"("status": "complete")") != std::string::npos;
   const std::string kept = checkpoints.clear(!ended);
   if (!kept.empty())
-    std::fprintf(stderr,
-                 "fsi: notice: the run before in \"%s\" did not come to its end; its checkpoint is "
-                 "kept as \"%s\" (without .before it is the one that -restart goes on from)\n",
-                 directory.c_str(), kept.c_str());
+    std::fprintf(
+        stderr,
+        "fsi: notice: the run before in \"%s\" did not come to its end; its checkpoint is "
+        "kept as \"%s\"; to go on from it, move it to another folder, without .before, and "
+        "give that folder and -restart\n",
+        directory.c_str(), kept.c_str());
   std::error_code code;
   std::vector<std::filesystem::path> tables;
   for (const auto& entry : std::filesystem::directory_iterator(directory, code)) {
     const std::string name = entry.path().filename().string();
-    if (name == "solid.csv" || (name.starts_with("solid_") && name.ends_with(".csv")))
-      tables.push_back(entry.path());
+    if (name != "solid.csv" && !(name.starts_with("solid_") && name.ends_with(".csv"))) continue;
+    std::string head;
+    std::getline(std::ifstream(entry.path()), head);
+    if (head.starts_with("t,x,y,z,ux,uy,uz,volume")) tables.push_back(entry.path());
   }
   for (const std::filesystem::path& table : tables) std::filesystem::remove(table, code);
 }

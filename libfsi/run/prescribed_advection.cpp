@@ -13,7 +13,7 @@
 
 namespace fsi {
 PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
-                                         const shapes::Shape& shape)
+                                         const shapes::Shape& shape, bool trim)
     : mesh_(mesh),
       motion_(std::move(motion)),
       alpha_(mesh),
@@ -27,9 +27,9 @@ PrescribedAdvection::PrescribedAdvection(const Mesh& mesh, vof::Motion motion,
       advect_scratch_(mesh) {
   const vof::Filled filled = vof::fill(alpha_, mesh, shape);
   require(filled.volume > 0, "the solid is empty: its shape lies outside the mesh");
-  require(filled.clearance > 0, "the solid sticks out of the mesh, whose boundary reaches " +
-                                    print("%.4g", -filled.clearance) +
-                                    " deep into it: move it or make it smaller");
+  require(trim || filled.clearance > 0,
+          "the solid sticks out of the mesh, whose boundary reaches " +
+              print("%.4g", -filled.clearance) + " deep into it: move it or make it smaller");
   start_.assign(alpha_);
   for (Index c = 0; c < mesh.n_cells; ++c) u_1_[c] = motion_.u(mesh.C[c]);
   vof::set_flux(phi_1_, motion_, mesh);

@@ -20,9 +20,10 @@ namespace fsi {
 /// The interface and its motion.
 class PrescribedAdvection {
  public:
-  /// Collective. mesh must outlive it. Errors: Error{input} where the shape is empty or leaves the
-  /// mesh.
-  PrescribedAdvection(const Mesh& mesh, vof::Motion motion, const shapes::Shape& shape);
+  /// Collective. mesh must outlive it. Errors: Error{input} where the shape is empty, or
+  /// leaves the mesh and is not to be trimmed.
+  PrescribedAdvection(const Mesh& mesh, vof::Motion motion, const shapes::Shape& shape,
+                      bool trim = false);
 
   /// Collective. Step of the given Courant number at the interface, at most a hundredth of the
   /// period.

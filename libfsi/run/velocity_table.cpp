@@ -28,8 +28,6 @@ VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
                 "; a file holds those of one time, and velocity_factor makes them change");
   const auto same = std::ranges::unique(rows_, {}, &Row::x);
   rows_.erase(same.begin(), same.end());
-  splines_.resize(rows_.size());
-
   Vec3 low = rows_[0].x, high = low, mean;
   for (const Row& row : rows_) {
     mean += row.x / static_cast<Real>(rows_.size());
@@ -41,6 +39,30 @@ VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
   SymTensor moments;
   for (const Row& row : rows_) moments += square(row.x - mean);
   for_told_directions(moments, spanned, [&](Real, const Vec3& e) { axes_.push_back(e); });
+  merge_layers();
+  splines_.resize(rows_.size());
+}
+
+// Points that differ across the directions of the table alone, such as two layers of a thin
+// profile, are one: their mean.
+void VelocityTable::merge_layers() {
+  constexpr Real same = 1e-6;  // of the extent
+  const auto along = [&](const Row& row) { return local(row.x).x; };
+  std::ranges::sort(rows_, {}, along);
+  std::vector<Row> merged;
+  std::vector<char> taken(rows_.size(), 0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (taken[i] != 0) continue;
+    Row sum{};
+    Real count = 0;
+    for (std::size_t j = i; j < rows_.size(); ++j) {
+      if (along(rows_[j]) - along(rows_[i]) > same * extent_) break;
+      if (taken[j] != 0 || norm(local(rows_[j].x - rows_[i].x)) > same * extent_) continue;
+      sum.x += rows_[j].x, sum.u += rows_[j].u, count += 1, taken[j] = 1;
+    }
+    merged.push_back({sum.x / count, sum.u / count});
+  }
+  rows_ = std::move(merged);
 }
 
 Vec3 VelocityTable::local(const Vec3& x) const {

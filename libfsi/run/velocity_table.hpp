@@ -16,7 +16,8 @@ namespace fsi {
 /// The velocity between the points of a table, such as a measured profile: a `Spline` through the
 /// 24 points around x. More points are taken where 24 do not tell the slope in all directions that
 /// the table spans. In other directions, across a plane or a line of points, the velocity is
-/// constant. It is exact for a linear velocity and, with enough points, for a parabola.
+/// constant, and points that differ in them alone count as one. It is exact for a linear velocity
+/// and, with enough points, for a parabola.
 class VelocityTable {
  public:
   /// A point and the velocity there.
@@ -42,6 +43,7 @@ class VelocityTable {
  private:
   /// x in the directions that the table spans.
   Vec3 local(const Vec3& x) const;
+  void merge_layers();
   std::size_t nearest(const Vec3& x) const;
   /// The spline of the points around the k-th.
   const Spline& around(std::size_t k) const;

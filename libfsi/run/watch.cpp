@@ -256,6 +256,9 @@ void Watch::resume(const Solver& solver) {
   for (std::size_t i = 0; i < said_.size(); ++i) {
     const Body& body = solver.bodies()[i];
     said_[i].leaving = leaves(body), said_[i].left = body.gone != 0;
+    const ThinFilms thin = thin_films(i, solver);
+    said_[i].sliding = !thin.wall.empty();
+    told_of_touch_ = told_of_touch_ || !thin.solid.empty();
   }
 }
 

@@ -58,7 +58,8 @@ class Watch {
   void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
   /// Notices when a solid begins to leave the mesh, and when it has.
   void leaving(const Solver& solver);
-  /// A run goes on from a checkpoint: what was told of solids that leave is not told again.
+  /// Collective. A run goes on from a checkpoint: what was told of solids that leave, and of films,
+  /// is not told again.
   void resume(const Solver& solver);
   /// Collective. A notice when the ranks no longer share the cells of the solids evenly; whether
   /// a new division is worth it. In a run that goes on, just divided, the busiest rank's share must

@@ -63,10 +63,16 @@ void WallFilm::set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, 
 }
 
 void WallFilm::thin(FaceField<Real>& mu, const CellField<Real>& alpha,
-                    const FaceField<Real>& alpha_f, Real mu_f, Real thickness) const {
-  if (thickness <= 0) return;
+                    const FaceField<Real>& alpha_f, Real mu_f) const {
+  constexpr Real least = 1e-9;  // of the depth
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
-    if (covers(f, alpha)) mu[f] = mu_f / std::max(mu_f / mu[f] - alpha_f[f], thickness / depth(f));
+    if (covers(f, alpha)) mu[f] = mu_f / std::max(mu_f / mu[f] - alpha_f[f], least);
+}
+
+void WallFilm::bound_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f,
+                               Real thickness) const {
+  for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
+    if (covers(f, alpha)) mu[f] = std::min(mu[f], mu_f * depth(f) / thickness);
 }
 
 Real WallFilm::depth(Index f) const { return dot(mesh_.d[f], mesh_.Sf[f]) / norm(mesh_.Sf[f]); }

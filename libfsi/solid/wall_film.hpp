@@ -27,13 +27,16 @@ class WallFilm {
   /// mu = mu_f at the faces with a film that have solid in their cell: as if the film were half a
   /// cell thick.
   void set_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f) const;
-  /// After `set_viscosity` of all solids: mu of a film with a thickness; 0: as it is. Let d be the
-  /// distance of the cell's centre from the wall, and (1 - alpha_f) d that of the surface. The
-  /// fluid between them bears u_wall - u_c:
+  /// The next two, after `set_viscosity` of all solids, for those whose films have a thickness: mu
+  /// of the film. Let d be the distance of the cell's centre from the wall, and (1 - alpha_f) d
+  /// that of the surface. The fluid between them bears u_wall - u_c:
   ///   mu = mu_f / max(1 - alpha_f, thickness / d).
-  /// Where several solids share the cell, alpha_f is their sum.
+  /// Where several of them share the cell, alpha_f is their sum, and the largest thickness counts.
   void thin(FaceField<Real>& mu, const CellField<Real>& alpha, const FaceField<Real>& alpha_f,
-            Real mu_f, Real thickness) const;
+            Real mu_f) const;
+  /// The bound by the thickness, above 0; after `thin` of all solids.
+  void bound_viscosity(FaceField<Real>& mu, const CellField<Real>& alpha, Real mu_f,
+                       Real thickness) const;
 
   /// Collective. The largest distance of a cell's centre from its face with a film; 0: no film.
   Real largest_depth() const;

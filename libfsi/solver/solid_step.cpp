@@ -209,9 +209,11 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
     std::fill(mu.data() + mesh_.n_internal, mu.data() + mesh_.n_faces, physics_.mu_f);
   for (const Body& body : bodies_)
     if (body.film) body.film->set_viscosity(mu, body.alpha, physics_.mu_f);
+  const auto thin = [](const Body& body) { return body.film && body.film_thickness > 0; };
   for (const Body& body : bodies_)
-    if (body.film)
-      body.film->thin(mu, body.alpha, body.alpha_f, physics_.mu_f, body.film_thickness);
+    if (thin(body)) body.film->thin(mu, body.alpha, body.alpha_f, physics_.mu_f);
+  for (const Body& body : bodies_)
+    if (thin(body)) body.film->bound_viscosity(mu, body.alpha, physics_.mu_f, body.film_thickness);
 }
 
 void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body& body,

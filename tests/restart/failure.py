@@ -190,7 +190,7 @@ def main():
 
     # A new run in the folder of one that did not end keeps its checkpoint, and none of its tables of solids.
     with open(os.path.join(out, "solid_other.csv"), "w", encoding="utf-8") as table:
-        table.write("t,x\n0,0\n")
+        table.write("t,x,y,z,ux,uy,uz,volume\n0,0,0,0,0,0,0,1\n")
     anew = run([*command, "-time_end", "0.02", "-output_interval", "0"])
     kept = [name for name in os.listdir(out) if name.endswith(".before")]
     check(anew.returncode == 0 and len(kept) == 1 and f"is kept as \"{os.path.join(out, kept[0])}" in anew.stderr,

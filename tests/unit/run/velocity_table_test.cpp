@@ -78,6 +78,19 @@ TEST(VelocityTable, IsExactForAParabola) {
   for (const Real y : {0.0, 0.2, 0.77, 1.0}) EXPECT_NEAR(slit({0, y, 0}).x, y * (1 - y), 1e-13);
 }
 
+// Two layers of a profile, a thousandth of its width apart, are one.
+TEST(VelocityTable, MergesLayers) {
+  std::vector<VelocityTable::Row> rows;
+  for (const Real x : {0.0, 0.001})
+    for (int i = 0; i <= 8; ++i) {
+      const Real y = i / 8.0;
+      rows.push_back({.x = {x, y, 0}, .u = {y * (1 - y) + x, 0, 0}});
+    }
+  const VelocityTable table("layers.csv", rows);
+  for (const Real y : {0.0, 0.3, 0.9})
+    EXPECT_NEAR(table({0, y, 0}).x, y * (1 - y) + 0.0005, 1e-6) << y;
+}
+
 TEST(VelocityTable, RefusesTwoVelocitiesAtOnePlace) {
   EXPECT_THROW(VelocityTable("two.csv", {{.x = {0, 1, 0}, .u = {1, 0, 0}},
                                          {.x = {0, 2, 0}, .u = {1, 0, 0}},

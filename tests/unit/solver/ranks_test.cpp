@@ -128,8 +128,8 @@ TEST(Ranks, HoldOneStateOfABall) {
     expect_one_state({.n = {8, 8, 8}, .simplex = simplex, .steps = 10});
 }
 
-// Without an opening the pressure is known but for a constant. It vanishes in the first cell of the
-// file, whichever rank has this cell.
+// Without an opening the pressure is known but for a constant. With a direct solver it vanishes in
+// the cell of number 0, whichever rank has this cell.
 TEST(Ranks, ThePressureOfAClosedBoxHasTheSameLevel) {
   const Mesh mesh = test::read_box({.n = {8, 24, 0}, .length = {1, 3, 1}});
   Conditions conditions{{"top", Wall{{1, 0, 0}}}};

@@ -177,7 +177,8 @@ TEST(Walls, FilmsBearTheVelocityAcrossThem) {
   const Real d = 0.5 / 4, mu_f = 2;
   for (const Real thickness : {Real{0}, 0.1 * d, 0.5 * d, 2 * d}) {
     film.set_viscosity(mu, alpha, mu_f);
-    film.thin(mu, alpha, alpha_f, mu_f, thickness);
+    if (thickness > 0)
+      film.thin(mu, alpha, alpha_f, mu_f), film.bound_viscosity(mu, alpha, mu_f, thickness);
     const Real between = thickness > 0 ? std::max(0.2 * d, thickness) : d;
     for (Index f = 0; f < mesh.n_faces; ++f)
       EXPECT_NEAR(mu[f], mesh.Cf[f].y < 1e-9 ? mu_f * d / between : 7, 1e-12);
