@@ -78,7 +78,7 @@ class PatchOptions {
     require(!text.empty(), "option -" + of(key) + " is missing: " + help);
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
-    const OfTime values = series(text, period, {key, symbol, "value"}, of(key));
+    OfTime values = series(text, period, {key, symbol, "value"}, of(key));
     tell_of_constant(values, text, key, symbol);
     return values;
   }
