@@ -1,6 +1,7 @@
 #include "libfsi/run/thin_film.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "libfsi/core/parallel.hpp"
@@ -9,39 +10,42 @@
 namespace fsi {
 namespace {
 
-/// Collective. The first wall with a cell that the solid fills to a half.
-std::string nearest_wall(const Body& body, const Solver& solver) {
+constexpr Real none = std::numeric_limits<Real>::max();
+
+/// The number of the first wall that has a cell which the body fills to a half; `none` without one.
+Real nearest_wall(const Body& body, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
-  if (body.bonded_faces + body.sliding_faces > 0) return "";
+  if (body.bonded_faces + body.sliding_faces > 0) return none;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    const Patch& patch = mesh.patches[i];
     if (!std::holds_alternative<Wall>(solver.conditions()[i])) continue;
-    bool filled = false;
+    const Patch& patch = mesh.patches[i];
     for (Index f = patch.begin; f < patch.end; ++f)
-      filled = filled || body.alpha[mesh.owner[f]] >= solid::alpha_known;
-    if (global_max(filled ? 1.0 : 0.0) > 0) return patch.name;
+      if (body.alpha[mesh.owner[f]] >= solid::alpha_known) return static_cast<Real>(i);
   }
-  return "";
+  return none;
 }
 
-/// Collective. The first other solid that shares a cell with it.
-std::string nearest_solid(const Body& body, const Solver& solver) {
+/// The number of the first other solid that has a cell of the body, too; `none` without one.
+Real nearest_solid(const Body& body, const Solver& solver) {
   constexpr Real least = 0.05;  // of a cell
-  for (const Body& other : solver.bodies()) {
+  for (std::size_t i = 0; i < solver.bodies().size(); ++i) {
+    const Body& other = solver.bodies()[i];
     if (&other == &body) continue;
-    bool shared = false;
-    for (Index c = 0; c < body.mesh.n_owned; ++c)
-      shared = shared || (body.alpha[c] > least && other.alpha[c] > least);
-    if (global_max(shared ? 1.0 : 0.0) > 0) return other.name;
+    const auto both = [&](Index c) { return body.alpha[c] > least && other.alpha[c] > least; };
+    if (std::ranges::any_of(body.band.cells(), both)) return static_cast<Real>(i);
   }
-  return "";
+  return none;
 }
 
 }  // namespace
 
 ThinFilms thin_films(std::size_t i, const Solver& solver) {
   const Body& body = solver.bodies()[i];
-  return {.wall = nearest_wall(body, solver), .solid = nearest_solid(body, solver)};
+  const Real wall = global_min(nearest_wall(body, solver));
+  const Real other = global_min(nearest_solid(body, solver));
+  const auto number = [](Real of) { return static_cast<std::size_t>(of); };
+  return {.wall = wall < none ? solver.mesh().patches[number(wall)].name : "",
+          .solid = other < none ? solver.bodies()[number(other)].name : ""};
 }
 
 }  // namespace fsi

@@ -80,8 +80,11 @@ const Spline& VelocityTable::around(std::size_t k) const {
   constexpr std::size_t enough = 24;
   if (splines_[k]) return *splines_[k];
   std::vector<Row> near = rows_;
-  std::ranges::stable_sort(near, {}, [&](const Row& row) { return norm2(row.x - rows_[k].x); });
+  const auto away = [&](const Row& row) {
+    return std::pair(norm2(row.x - rows_[k].x), key_of(row.x));
+  };
   for (std::size_t n = std::min(enough, near.size());; n = std::min(2 * n, near.size())) {
+    std::ranges::partial_sort(near, near.begin() + static_cast<std::ptrdiff_t>(n), {}, away);
     std::vector<Spline::Point> points;
     for (std::size_t i = 0; i < n; ++i)
       points.push_back({local(near[i].x - rows_[k].x), near[i].u});
