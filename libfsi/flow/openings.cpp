@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 
 namespace fsi::flow {

@@ -48,7 +48,7 @@ class PatchOptions {
   /// The options that were read, without their prefix.
   const std::vector<std::string>& keys() const { return keys_; }
   /// The table of a velocity that was read; null: none.
-  const VelocityTable* table() const { return table_.get(); }
+  VelocityTable* table() const { return table_.get(); }
 
  private:
   /// The option of that key.
@@ -132,7 +132,7 @@ class PatchOptions {
     for (const std::vector<Real>& row :
          read_rows(file, {{"x"}, {"y"}, {"z"}, {"ux"}, {"uy"}, {"uz"}}, of("velocity_file")))
       rows.push_back({.x = {row[0], row[1], row[2]}, .u = {row[3], row[4], row[5]}});
-    table_ = std::make_shared<const VelocityTable>(file, std::move(rows));
+    table_ = std::make_shared<VelocityTable>(file, std::move(rows));
     return FixedVelocity{
         [table = table_, factor](const Vec3& x, Real t) { return factor(t) * (*table)(x); },
         factor};
@@ -164,7 +164,7 @@ class PatchOptions {
   Options& options_;
   std::string name_;
   std::vector<std::string> keys_{"type"};
-  std::shared_ptr<const VelocityTable> table_;
+  std::shared_ptr<VelocityTable> table_;
 };
 
 std::string joined(const std::vector<std::string>& words) {
@@ -278,7 +278,7 @@ Conditions read_patches(Options& options, const Mesh& mesh) {
     PatchOptions of_patch(options, patch.name);
     conditions[patch.name] = of_patch.read(type);
     check_keys(options, mesh, patch.name, type, of_patch.keys());
-    if (of_patch.table() != nullptr) tell(of_patch.table()->check(mesh, patch));
+    if (of_patch.table() != nullptr) tell(of_patch.table()->fit_to(mesh, patch));
   }
   return conditions;
 }

@@ -13,11 +13,11 @@ namespace {
 constexpr Real none = std::numeric_limits<Real>::max();
 
 /// The number of the first wall that has a cell which the body fills to a half; `none` without one.
+/// The walls that it stood on at the start do not count.
 Real nearest_wall(const Body& body, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
-  if (body.bonded_faces + body.sliding_faces > 0) return none;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    if (!std::holds_alternative<Wall>(solver.conditions()[i])) continue;
+    if (!std::holds_alternative<Wall>(solver.conditions()[i]) || body.stood_on[i] != 0) continue;
     const Patch& patch = mesh.patches[i];
     for (Index f = patch.begin; f < patch.end; ++f)
       if (body.alpha[mesh.owner[f]] >= solid::alpha_known) return static_cast<Real>(i);

@@ -16,6 +16,20 @@ namespace {
 
 std::array<Real, 3> key_of(const Vec3& x) { return {x.x, x.y, x.z}; }
 
+/// Collective. The normal of a patch in one plane; zero if it is curved.
+Vec3 flat_normal(const Mesh& mesh, const Patch& patch) {
+  constexpr Real flat = 0.999;  // of the area, as seen along the normal
+  std::array<Sum, 4> sums;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)].add(mesh.Sf[f][i]);
+    sums[3].add(norm(mesh.Sf[f]));
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  const Vec3 S{total[0], total[1], total[2]};
+  return norm(S) > flat * total[3] ? S / norm(S) : Vec3{};
+}
+
 }  // namespace
 
 VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
@@ -28,6 +42,11 @@ VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
                 "; a file holds those of one time, and velocity_factor makes them change");
   const auto same = std::ranges::unique(rows_, {}, &Row::x);
   rows_.erase(same.begin(), same.end());
+  given_ = rows_;
+  set_directions({}, 3);
+}
+
+void VelocityTable::set_directions(const Vec3& normal, int dim) {
   Vec3 low = rows_[0].x, high = low, mean;
   for (const Row& row : rows_) {
     mean += row.x / static_cast<Real>(rows_.size());
@@ -35,12 +54,25 @@ VelocityTable::VelocityTable(std::string name, std::vector<Row> rows)
       low[k] = std::min(low[k], row.x[k]), high[k] = std::max(high[k], row.x[k]);
   }
   extent_ = norm(high - low);
-  constexpr Real spanned = 4e-4;  // of the largest moment: a fiftieth of the width
-  SymTensor moments;
-  for (const Row& row : rows_) moments += square(row.x - mean);
-  for_told_directions(moments, spanned, [&](Real, const Vec3& e) { axes_.push_back(e); });
+  SymTensor moments, in_plane;
+  for (const Row& row : rows_) {
+    Vec3 r = row.x - mean;
+    if (dim < 3) r.z = 0;
+    moments += square(r), in_plane += square(r - dot(r, normal) * normal);
+  }
+  // Layers along the patch are one, and so are those of any direction if the patch is not flat.
+  constexpr Real layered = 4e-4, flat = 1e-6;  // of the largest moment
+  axes_.clear();
+  const auto add = [&](Real, const Vec3& e) { axes_.push_back(e); };
+  if (normal == Vec3{}) {
+    for_told_directions(moments, layered, add);
+  } else {
+    for_told_directions(in_plane, flat, add);
+    if (dot(normal, dot(moments, normal)) > layered * trace(moments)) axes_.push_back(normal);
+  }
   merge_layers();
-  splines_.resize(rows_.size());
+  splines_.assign(rows_.size(), {});
+  known_.clear();
 }
 
 // Points that differ across the directions of the table alone, such as two layers of a thin
@@ -93,8 +125,9 @@ const Spline& VelocityTable::around(std::size_t k) const {
   }
 }
 
-std::string VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
+std::string VelocityTable::fit_to(const Mesh& mesh, const Patch& patch) {
   if (extent_ == 0) return "";
+  rows_ = given_;
   constexpr Real none = std::numeric_limits<Real>::infinity();
   Real first = none, last = 0, farthest = 0;
   Vec3 low{none, none, none}, high = -1.0 * low;
@@ -105,18 +138,47 @@ std::string VelocityTable::check(const Mesh& mesh, const Patch& patch) const {
     for (int i = 0; i < 3; ++i)
       low[i] = std::min(low[i], mesh.Cf[f][i]), high[i] = std::max(high[i], mesh.Cf[f][i]);
   }
-  Vec3 across;
-  for (int i = 0; i < 3; ++i) across[i] = global_max(high[i]) - global_min(low[i]);
+  for (int i = 0; i < 3; ++i) high[i] = global_max(high[i]), low[i] = global_min(low[i]);
+  const Vec3 across = high - low;
+  farthest = global_max(farthest);
   // A profile along a line is valid, and so is one table for inlets far apart.
   constexpr Real beyond = 10, wider = 100;
-  const bool far = global_max(farthest) > beyond * extent_;
+  const bool far = farthest > beyond * extent_;
   const bool one =
       global_min(first) == global_max(last) && norm(across) > 0 && extent_ > wider * norm(across);
   const std::string its = name_ + ": its places, the first of them " + text_of(rows_[0].x) + ", ";
   require(!far, its + "do not reach patch \"" + patch.name + "\"; are both in the same units?");
   require(!one, its + "are far wider than patch \"" + patch.name +
                     "\": all of its faces are nearest to one of them; are both in the same units?");
-  return tell_of_width(mesh, patch);
+  constexpr Real rounding = 0.01, mostly = 0.4;  // of the width, of the places
+  const auto within = [&](Real margin) {
+    std::vector<Row> rows;
+    for (const Row& row : rows_) {
+      bool in = true;
+      for (int i = 0; i < 3; ++i)
+        in = in && row.x[i] >= low[i] - margin && row.x[i] <= high[i] + margin;
+      if (in) rows.push_back(row);
+    }
+    return rows;
+  };
+  const Real margin = rounding * norm(across);
+  const bool others = static_cast<Real>(within(margin + least_distance(low, high)).size()) <
+                      mostly * static_cast<Real>(rows_.size());
+  const std::string told = others ? tell_of_width(mesh, patch) : "";
+  rows_ = within(1.5 * farthest + margin);  // never empty: each face has a place that near
+  set_directions(flat_normal(mesh, patch), mesh.dim);
+  return others ? told : tell_of_width(mesh, patch);
+}
+
+// Of a table that lies before or behind the patch, the distance between both.
+Real VelocityTable::least_distance(const Vec3& low, const Vec3& high) const {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (const Row& row : rows_) {
+    Real away = 0;
+    for (int i = 0; i < 3; ++i) away = std::max({away, low[i] - row.x[i], row.x[i] - high[i]});
+    least = std::min(least, away);
+  }
+  return least;
 }
 
 std::string VelocityTable::tell_of_width(const Mesh& mesh, const Patch& patch) const {

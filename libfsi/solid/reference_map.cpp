@@ -194,7 +194,7 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
 Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const {
   // In triangles and tetrahedra grad xi is a least-squares fit, and more of the volume is lost.
   // With the map kinematics a larger nu_J would pull a coarse solid towards a moving lid.
-  const Real part = beside_psi_ && mesh_.simplex(c) ? 0.12 : 0.06;
+  const Real part = beside_psi_ && mesh_.simplex(c) ? 0.18 : 0.06;
   const Real J = volume_ratio(c), h = cell_size(mesh_, c);
   Vec3 grad_J;
   for (const Index f : mesh_.cell_faces[c]) {

@@ -5,6 +5,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/vof/symmetry.hpp"
 
 namespace fsi {
 namespace {
@@ -33,8 +34,7 @@ std::string name_of(const Kinematics& kinematics) {
 }
 
 Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
-           const Physics& physics, const std::vector<Patch>& mirrors,
-           const std::vector<Patch>& walls, const std::vector<Patch>& still)
+           const Physics& physics, const SolidPatches& patches)
     : mesh(mesh_),
       weights(weights_),
       zone(mesh),
@@ -44,7 +44,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       rho(solid.rho > 0 ? solid.rho : physics.rho),
       weight(rho * solid.acceleration + (rho - physics.rho) * physics.gravity),
       alpha(mesh),
-      filled(vof::fill(alpha, mesh, solid.shape, mirrors)),
+      filled(vof::fill(alpha, mesh, solid.shape, patches.mirrors)),
       alpha_mid(mesh),
       B(mesh),
       alpha_f(mesh),
@@ -67,24 +67,22 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       hold_scratch(mesh),
       pieces(mesh),
       left_out(mesh),
-      mirror{mirrors.empty() ? std::vector<char>{} : on_faces(mirrors, mesh)},
+      mirror{patches.mirrors.empty() ? std::vector<char>{} : on_faces(patches.mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
-  hold_parts(physics, walls);
+  hold_parts(physics, patches.walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  const auto among = [](const std::vector<Patch>& patches, const Patch& patch) {
-    return std::ranges::find(patches, patch.name, &Patch::name) != patches.end();
-  };
-  for (const Patch& patch : mesh.patches)
-    if (!among(walls, patch) && !among(mirrors, patch))
-      for (Index f = patch.begin; f < patch.end; ++f) at_openings.push_back(mesh.owner[f]);
-  const std::vector<char> at_walls = bonded(walls), at_still = bonded(still);
+  const std::vector<char> passed = on_faces(patches.openings, mesh);
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    if (passed[f - mesh.n_internal] != 0) at_openings.push_back(mesh.owner[f]);
+  const std::vector<char> at_walls = bonded(patches.walls), at_still = bonded(patches.still);
   set_bond(at_walls, at_still);
-  if (solid.kinematics == KinematicsKind::log_conformation && !walls.empty())
-    film.emplace(mesh, walls, at_walls);
+  if (solid.trim && filled.clearance < 0) trim_shape(patches.mirrors);
+  if (solid.kinematics == KinematicsKind::log_conformation && !patches.walls.empty())
+    film.emplace(mesh, patches.walls, at_walls);
   film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
-    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, walls,
+    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, patches.walls,
                    SymmetryFaces{filled.cut_by.faces});
     memory->hold(at_still);
     memory->set_undeformed(alpha);
@@ -92,6 +90,26 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   if (auto* map = std::get_if<solid::ReferenceMap>(&kinematics)) map->hold(at_still);
   std::visit([&](auto& k) { k.set_undeformed(alpha); }, kinematics);
   resume();
+}
+
+// Later the part that the mesh cut off is not there. The planes of the cut make a valid shape only
+// if the solid lies on the same side of each, which the volume tells.
+void Body::trim_shape(const std::vector<Patch>& mirrors) {
+  constexpr Real same = 1e-4;  // of the volume
+  std::vector<Patch> others;
+  for (const Patch& patch : mesh.patches)
+    if (std::ranges::find(mirrors, patch.name, &Patch::name) == mirrors.end())
+      others.push_back(patch);
+  const auto planes = vof::cutting_planes(shape, mesh, others).planes;
+  const shapes::Shape left = [whole = shape, planes](const Vec3& x) {
+    Real value = whole(x);
+    for (const geometry::Mirror& plane : planes) value = std::max(value, dot(x - plane.x, plane.n));
+    return value;
+  };
+  CellField<Real> of_left(mesh);
+  const Real volume = vof::fill(of_left, mesh, left, mirrors).volume;
+  cut_by_mesh = planes.empty() || std::abs(volume - filled.volume) > same * filled.volume;
+  if (!cut_by_mesh) shape = left;
 }
 
 // In a cell with a corner of the solid the plane may reach a wall that the solid does not. Where
@@ -126,6 +144,12 @@ void Body::set_bond(const std::vector<char>& at_walls, const std::vector<char>& 
   std::array<Real, 2> totals{};
   Sum::totals(totals, faces);
   bonded_faces = static_cast<Index>(totals[0]), sliding_faces = static_cast<Index>(totals[1]);
+  for (const Patch& patch : mesh.patches) {
+    const auto begin = at_walls.begin() + (patch.begin - mesh.n_internal);
+    const bool none =
+        std::count(begin, begin + (patch.end - patch.begin), 0) == patch.end - patch.begin;
+    stood_on.push_back(all_of_ranks(none) ? 0 : 1);
+  }
 }
 
 Real Body::bond_kept() const {
@@ -213,8 +237,8 @@ void Body::hold_shape() {
     trust.push_back(pieces.several() && left_out[c] > 0 ? 0 : m.trust(c));
   const vof::ShapeMap shape_map{
       .shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust};
-  // It would do so where an opening has cut the solid, too.
-  if (volume_out > 0) {
+  // It would do so where an opening or the mesh has cut the solid, too.
+  if (volume_out > 0 || cut_by_mesh) {
     vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count, at_openings);
     for (std::size_t i = 0; i < trust.size(); ++i)
       if (left_out[m.cells()[i]] > 0) trust[i] = 0;

@@ -50,16 +50,21 @@ struct TwoViscosities {
   CellField<Real> height;           ///< of the cell's centre above the surface
 };
 
+/// The patches of a mesh, by what they are to a solid; one may be in several lists.
+struct SolidPatches {
+  std::vector<Patch> mirrors{};   ///< planes of symmetry, which may cut it
+  std::vector<Patch> walls{};     ///< whose velocity is given, inlets too
+  std::vector<Patch> still{};     ///< those of `walls` that never move
+  std::vector<Patch> openings{};  ///< which fluid and solid may pass
+};
+
 /// A solid.
 struct Body {
-  /// Collective. Fills the undeformed shape. mirrors: planes of symmetry, which may cut it; walls:
-  /// patches whose velocity is given, inlets too; still: those of them that never move. If its
-  /// viscosity is not the fluid's, the surface gets an explicit traction. There is none beyond
-  /// SurfaceTraction::ratio_max on meshes without triangles and tetrahedra, and with
-  /// left_cauchy_green.
+  /// Collective. Fills the undeformed shape. If its viscosity is not the fluid's, the surface gets
+  /// an explicit traction. There is none beyond SurfaceTraction::ratio_max on meshes without
+  /// triangles and tetrahedra, and with left_cauchy_green.
   Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
-       const std::vector<Patch>& mirrors = {}, const std::vector<Patch>& walls = {},
-       const std::vector<Patch>& still = {});
+       const SolidPatches& patches = {});
 
   /// Collective. Gives the solid a deformation to start from; det B = 1. Errors: Error{input} with
   /// the map kinematics, since the map does not follow from B.
@@ -70,11 +75,14 @@ struct Body {
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight need.
   void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
+  /// Collective. Takes from `shape` what the mesh cut off, if planes did so; else sets
+  /// `cut_by_mesh`.
+  void trim_shape(const std::vector<Patch>& mirrors);
   /// [n_boundary] 1 on faces of these patches that the solid touches, in cells that are at least
   /// half full. The planes of alpha must be those of the undeformed solid.
   std::vector<char> bonded(const std::vector<Patch>& patches) const;
-  /// Collective. Sets `bond` and both numbers; at_walls, at_still: `bonded` of all walls, and of
-  /// those at rest.
+  /// Collective. Sets `bond`, `stood_on` and both numbers; at_walls, at_still: `bonded` of all
+  /// walls, and of those at rest.
   void set_bond(const std::vector<char>& at_walls, const std::vector<char>& at_still);
   /// Collective. The part of `bond` whose cells are still at least half full; 1 without a bond.
   Real bond_kept() const;
@@ -193,9 +201,10 @@ struct Body {
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< with log_conformation
   std::vector<Index> bond;  ///< boundary faces of walls at rest that the undeformed solid touches
-  Index bonded_faces = 0;   ///< the number of these, of all ranks
-  Index sliding_faces = 0;  ///< of all ranks: those of walls that move and inlets
-  Real film_thickness = 0;  ///< least; 0: half a cell
+  std::vector<char> stood_on;  ///< [patches] 1: a wall that the undeformed solid touches
+  Index bonded_faces = 0;      ///< the number of these, of all ranks
+  Index sliding_faces = 0;     ///< of all ranks: those of walls that move and inlets
+  Real film_thickness = 0;     ///< least; 0: half a cell
   /// Part of solid on the line between two centres at the band's faces, where the mesh is irregular
   /// and the solid has a weight in the fluid.
   std::optional<FaceField<Real>> alpha_line;
@@ -209,9 +218,10 @@ struct Body {
   vof::HoldScratch hold_scratch;                 ///< scratch
   Pieces pieces;                                 ///< at the last hold_shape
   std::vector<Index> at_openings;                ///< owned cells
-  CellField<Real> left_out;                      ///< scratch of hold_shape
-  std::vector<Real> trust;                       ///< scratch of hold_shape
-  Real shape_moved = 0;  ///< volume that the last hold_shape moved, in parts of the solid's
+  bool cut_by_mesh = false;  ///< whether `shape` tells of a part that the mesh cut off
+  CellField<Real> left_out;  ///< scratch of hold_shape
+  std::vector<Real> trust;   ///< scratch of hold_shape
+  Real shape_moved = 0;      ///< volume that the last hold_shape moved, in parts of the solid's
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
   int interface_parts = 1;        ///< into which the last step was divided for the interface

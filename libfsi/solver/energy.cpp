@@ -7,6 +7,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/operators/stencil.hpp"
 
 namespace fsi {

@@ -80,17 +80,22 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
   }
 }
 
-/// Errors: Error{input} where a plane of symmetry cuts the body and its weight acts across it: the
-/// image would have another weight.
-void require_symmetric_weight(const Body& body) {
+/// Collective. Errors: Error{input} where a plane of symmetry cuts the body and its weight acts
+/// across it: the image would have another weight.
+void require_symmetric_weight(const Body& body, const std::vector<Patch>& mirrors,
+                              const Mesh& mesh) {
   constexpr Real rounding = 1e-9;
-  for (const geometry::Mirror& mirror : body.filled.cut_by.planes)
-    require(std::abs(dot(body.weight, mirror.n)) <= rounding * norm(body.weight),
-            called(body) +
-                print(" is cut by a plane of symmetry with the normal (%.3g, %.3g, %.3g), and its "
-                      "weight or acceleration acts across this plane, where its image has the "
-                      "opposite one: give a mesh of the whole scene",
-                      mirror.n.x, mirror.n.y, mirror.n.z));
+  for (const Patch& patch : mirrors) {
+    bool along = true;
+    for (Index f = patch.begin; f < patch.end; ++f)
+      if (body.filled.cut_by.faces[f - mesh.n_internal] != 0)
+        along = along && std::abs(dot(body.weight, mesh.Sf[f])) <=
+                             rounding * norm(body.weight) * norm(mesh.Sf[f]);
+    require(all_of_ranks(along),
+            called(body) + " is cut by the plane of symmetry \"" + patch.name +
+                "\", and its weight or acceleration acts across this plane, where its image has "
+                "the opposite one: give a mesh of the whole scene");
+  }
 }
 
 /// Errors: Error{input} where the body has a cell between two of these planes, which then has no
@@ -116,6 +121,20 @@ void require_depth(const Body& body, const std::vector<Patch>& planes, const Mes
               "too thin for a solid: give a mesh in two dimensions, or several layers");
 }
 
+SolidPatches patches_of_solids(const std::vector<Condition>& conditions, const Mesh& mesh) {
+  SolidPatches patches;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const Condition& here = conditions[i];
+    const Patch& patch = mesh.patches[i];
+    if (lets_slip(here)) patches.mirrors.push_back(patch);
+    if (fixes_velocity(here)) patches.walls.push_back(patch);
+    if (const auto* wall = std::get_if<Wall>(&here); wall && wall->velocity == Vec3{})
+      patches.still.push_back(patch);
+    if (fixes_pressure(here) || prescribes_flow(here)) patches.openings.push_back(patch);
+  }
+  return patches;
+}
+
 }  // namespace
 
 void Solver::require_bodies() const {
@@ -138,23 +157,16 @@ void Solver::put_solid(const Solid& solid) {
   require_material(solid, physics_);
   for (const Body& other : bodies_)
     require(other.name != solid.name, "two solids have the name \"" + solid.name + "\"");
-  std::vector<Patch> mirrors, walls, still;
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& here = conditions_[i];
-    if (lets_slip(here)) mirrors.push_back(mesh_.patches[i]);
-    if (fixes_velocity(here)) walls.push_back(mesh_.patches[i]);
-    if (const auto* wall = std::get_if<Wall>(&here); wall && wall->velocity == Vec3{})
-      still.push_back(mesh_.patches[i]);
-  }
-  bodies_.emplace_back(mesh_, weights_, solid, physics_, mirrors, walls, still);
+  const SolidPatches patches = patches_of_solids(conditions_, mesh_);
+  bodies_.emplace_back(mesh_, weights_, solid, physics_, patches);
   Body& body = bodies_.back();
   body.t = state_.t;
   body.begun = state_.step;
   body.t_begun = state_.t;
   try {
     require_place(body, solid, bodies_, mesh_);
-    require_symmetric_weight(body);
-    require_depth(body, mirrors, mesh_);
+    require_symmetric_weight(body, patches.mirrors, mesh_);
+    require_depth(body, patches.mirrors, mesh_);
   } catch (const Error&) {
     bodies_.pop_back();  // all ranks throw alike
     throw;

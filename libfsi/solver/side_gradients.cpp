@@ -2,7 +2,10 @@
 
 namespace fsi {
 
-void SideGradients::begin(const CellField<Tensor>& L) { of_flow_.assign(L); }
+void SideGradients::begin(const CellField<Tensor>& L) {
+  of_flow_.assign(L);
+  sides_.fill(0);  // a step that failed may have left some
+}
 
 void SideGradients::keep(CellField<Tensor>& L, const Body& body) {
   if (!body.interface_gradient) return;

@@ -1,6 +1,8 @@
 #pragma once
 // The velocity gradients of several solids, each one-sided at its own surface.
 
+#include <deque>
+
 #include "libfsi/solver/body.hpp"
 
 namespace fsi {

@@ -49,7 +49,7 @@ TEST(Taylor, OnPlanesOfSymmetry) {
         shapes::translate(shapes::ellipsoid({0.36, 0.24, shapes::infinity}), {x, 0, 0});
     std::vector<Patch> mirrors{mesh.patch("bottom")};
     if (x == 0) mirrors.push_back(mesh.patch("left"));
-    const Body body(mesh, weights, {.shape = shape, .G = 1}, {}, mirrors);
+    const Body body(mesh, weights, {.shape = shape, .G = 1}, {}, {.mirrors = mirrors});
     EXPECT_EQ(body.filled.cut_by.planes.size(), mirrors.size());
     const Taylor t = taylor(body, CellField<Vec3>(mesh), {x, 0.1, 0}, 0);
     EXPECT_NEAR(t.deformation, 0.2, 1e-3);

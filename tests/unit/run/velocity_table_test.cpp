@@ -91,6 +91,45 @@ TEST(VelocityTable, MergesLayers) {
     EXPECT_NEAR(table({0, y, 0}).x, y * (1 - y) + 0.0005, 1e-6) << y;
 }
 
+// A parabola between plates, in one table for an inlet and an outlet far apart. The line from one
+// to the other says nothing of the profile.
+TEST(VelocityTable, TakesThePlacesAtAPatch) {
+  const Mesh mesh = test::read_box({.n = {4, 8, 1}, .length = {40, 1, 1}});
+  std::vector<VelocityTable::Row> rows;
+  for (const Real x : {0.0, 40.0})
+    for (int i = 0; i <= 8; ++i) {
+      const Real y = i / 8.0;
+      rows.push_back({.x = {x, y, 0.5}, .u = {y * (1 - y) * (1 + x), 0, 0}});
+    }
+  for (const Real x : {0.0, 40.0}) {
+    VelocityTable table("two.csv", rows);
+    EXPECT_EQ(table.fit_to(mesh, mesh.patch(x == 0 ? "left" : "right")), "");
+    for (const Real y : {0.0, 0.3, 0.9})
+      EXPECT_NEAR(table({x, y, 0.5}).x, y * (1 - y) * (1 + x), 1e-11) << x << ' ' << y;
+  }
+}
+
+// Across a slot of a hundredth of its width.
+TEST(VelocityTable, KnowsTheProfileOfASlot) {
+  const Real height = 0.01;
+  const Mesh mesh = test::read_box({.n = {2, 40, 6}, .length = {1, 1, height}});
+  std::vector<VelocityTable::Row> rows;
+  const auto u = [&](const Vec3& x) {
+    const Real s = x.z / height;
+    return Vec3{s * (1 - s) * (1 + x.y), 0, 0};
+  };
+  for (int i = 0; i <= 30; ++i)
+    for (int j = 0; j <= 8; ++j) {
+      const Vec3 x{0, i / 30.0, height * j / 8};
+      rows.push_back({.x = x, .u = u(x)});
+    }
+  VelocityTable table("slot.csv", rows);
+  EXPECT_EQ(table.fit_to(mesh, mesh.patch("left")), "");
+  for (const Real y : {0.01, 0.52})
+    for (const Real s : {0.0, 0.31, 0.5})
+      EXPECT_LT(norm(table({0, y, s * height}) - u({0, y, s * height})), 1e-2) << y << ' ' << s;
+}
+
 TEST(VelocityTable, RefusesTwoVelocitiesAtOnePlace) {
   EXPECT_THROW(VelocityTable("two.csv", {{.x = {0, 1, 0}, .u = {1, 0, 0}},
                                          {.x = {0, 2, 0}, .u = {1, 0, 0}},
@@ -104,7 +143,7 @@ TEST(VelocityTable, TellsOfAnotherWidth) {
     std::vector<VelocityTable::Row> rows;
     for (int i = 0; i < 9; ++i)
       rows.push_back({.x = {2, 0.5 + width * (i / 8.0 - 0.5), 0.5}, .u = {1, 0, 0}});
-    return VelocityTable("line.csv", rows).check(mesh, mesh.patch("right"));
+    return VelocityTable("line.csv", rows).fit_to(mesh, mesh.patch("right"));
   };
   EXPECT_EQ(told(1), "");
   EXPECT_EQ(told(0.6), "");
@@ -114,9 +153,9 @@ TEST(VelocityTable, TellsOfAnotherWidth) {
 
 TEST(VelocityTable, TellsPlacesOfElsewhere) {
   const VelocityTable in_millimetres = table_of(6, [](const Vec3&) { return Vec3{1, 0, 0}; });
-  const auto check = [](const VelocityTable& table, const Vec3& length) {
+  const auto check = [](VelocityTable table, const Vec3& length) {
     const Mesh mesh = test::read_box({.n = {4, 4, 4}, .length = length});
-    table.check(mesh, mesh.patch("right"));
+    table.fit_to(mesh, mesh.patch("right"));
   };
   EXPECT_THROW(check(in_millimetres, {2e3, 1e3, 1e3}), Error);
   EXPECT_THROW(check(in_millimetres, {2, 1e-3, 1e-3}), Error);

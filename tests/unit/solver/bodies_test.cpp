@@ -78,6 +78,38 @@ TEST(Bodies, TheirOrderDoesNotMatter) {
     }
 }
 
+// A step that failed between the two solids leaves nothing to the next one.
+TEST(Bodies, AFailedStepLeavesNoGradients) {
+  Scene scene(true);
+  scene.solver.put_solid(disc("one", {0.5, 0.5, 0}, 1));
+  scene.solver.put_solid(disc("two", {0.8, 0.5, 0}, 1));
+  const std::deque<Body>& bodies = scene.solver.bodies();
+  const auto same = [](Real a) { return Tensor{a, a, a, a, a, a, a, a, a}; };
+  CellField<Tensor> flow(scene.mesh),
+      L[2]{CellField<Tensor>(scene.mesh), CellField<Tensor>(scene.mesh)};
+  SideGradients failed(scene.mesh), fresh(scene.mesh);
+  failed.begin(flow);
+  L[0].fill(same(5));
+  failed.keep(L[0], bodies[0]);
+  for (SideGradients* one : {&failed, &fresh}) {
+    CellField<Tensor>& of = L[one == &failed ? 0 : 1];
+    one->begin(flow);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      of.fill(same(1 + static_cast<Real>(i)));
+      one->keep(of, bodies[i]);
+      of.assign(flow);
+    }
+    one->merge(of, bodies);
+  }
+  Real most = 0, largest = 0;
+  for (Index c = 0; c < scene.mesh.n_owned; ++c) {
+    most = std::max(most, std::abs(L[0][c].xx - L[1][c].xx));
+    largest = std::max(largest, L[1][c].xx);
+  }
+  EXPECT_EQ(global_max(most), 0);
+  EXPECT_EQ(global_max(largest), 2);
+}
+
 // Two discs in shear are pressed together and roll over each other: they stay two, each keeps its
 // volume, and as the scene is its own image under a half turn, so are they.
 TEST(Bodies, PassEachOtherAndKeepTheirVolumes) {

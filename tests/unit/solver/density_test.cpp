@@ -102,7 +102,6 @@ TEST(Density, LeavesAStillColumnAtRest) {
   }
 }
 
-/// Two solids of different densities, the light one below or above, apart or in touch.
 // Half a disc, whose image beyond the plane of symmetry would fall the other way.
 TEST(Density, RefusesAWeightAcrossAPlaneOfSymmetry) {
   const Mesh mesh = test::read_box({.n = {16, 8, 0}, .length = {2, 1, 1}});
@@ -118,8 +117,18 @@ TEST(Density, RefusesAWeightAcrossAPlaneOfSymmetry) {
       EXPECT_THROW(solver.put_solid(half), Error);
     }
   }
+  // Between two planes of symmetry it has images without end.
+  Solver solver(
+      mesh, {.rho = 1, .mu_f = 0.1, .gravity = {0, -1, 0}},
+      {.conditions = {{"bottom", Slip{}}, {"top", Slip{}}, {"left", Wall{}}, {"right", Wall{}}}});
+  solver.start([](const Vec3&) { return Vec3{}; });
+  EXPECT_THROW(
+      solver.put_solid(
+          {.shape = shapes::translate(shapes::sphere(0.6), {1, 0.5, 0}), .G = 1, .rho = 2}),
+      Error);
 }
 
+/// Two solids of different densities, the light one below or above, apart or in touch.
 TEST(Density, LeavesTwoLayersAtRest) {
   for (const Column& column :
        {Column{.mesh = "quads", .middle = 0.32, .above = 0.5, .gap = 0.11},
