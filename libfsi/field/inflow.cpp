@@ -57,12 +57,13 @@ std::vector<Side> sides_of(const Face& face) {
   return sides;
 }
 
-/// A segment or a triangle between nodes, and its size.
+/// A segment or a triangle between nodes, its size, and the part of it that counts.
 struct Element {
   std::array<int, 3> nodes;
   std::array<Vec3, 3> x;  ///< of the nodes
   int n;
   Real size;
+  Real part = 1;
 };
 
 /// Linear finite elements of Lap w = -1.
@@ -76,7 +77,7 @@ class Section {
   Real integral(const Face& face) const {
     Real sum = 0;
     for (const Element& e : elements_of(face))
-      for (int i = 0; i < e.n; ++i) sum += e.size / e.n * w_[e.nodes[i]];
+      for (int i = 0; i < e.n; ++i) sum += e.part * e.size / e.n * w_[e.nodes[i]];
     return sum;
   }
 
@@ -100,11 +101,15 @@ Element Section::element(const Face& corners) const {
   return e;
 }
 
+// A quadrilateral is divided along both diagonals, each counting half, so that the profile does not
+// depend on its first corner.
 std::vector<Element> Section::elements_of(const Face& face) const {
   if (face.size() < 4) return {element(face)};
   std::vector<Element> parts;
-  for (std::size_t i = 2; i < face.size(); ++i)
-    parts.push_back(element({face[0], face[i - 1], face[i]}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    parts.push_back(element({face[i], face[(i + 1) % 4], face[(i + 2) % 4]}));
+    parts.back().part = 0.5;
+  }
   return parts;
 }
 
@@ -126,8 +131,8 @@ Section::Section(const std::vector<Face>& faces, const std::set<Side>& free) {
         for (int j = 0; j < e.n; ++j) {
           // int grad N_i . grad N_j: e_i . e_j / (4 A), e_i the side across from node i
           const auto across = [&](int k) { return e.x[(k + 2) % 3] - e.x[(k + 1) % 3]; };
-          K[i][j] =
-              e.n == 2 ? (i == j ? 1 : -1) / e.size : dot(across(i), across(j)) / (4 * e.size);
+          K[i][j] = e.n == 2 ? (i == j ? 1 : -1) / e.size
+                             : e.part * dot(across(i), across(j)) / (4 * e.size);
         }
     }
 }
@@ -149,7 +154,7 @@ bool Section::solve() {
     return std::ranges::fill(w_, 1.0), true;
   std::vector<Real> r(w_.size()), Kp(w_.size());
   for (const Element& e : elements_)
-    for (int i = 0; i < e.n; ++i) r[e.nodes[i]] += e.size / e.n;
+    for (int i = 0; i < e.n; ++i) r[e.nodes[i]] += e.part * e.size / e.n;
   for (std::size_t i = 0; i < r.size(); ++i)
     if (fixed_[i] != 0) r[i] = 0;
   const auto product = [](const std::vector<Real>& a, const std::vector<Real>& b) {

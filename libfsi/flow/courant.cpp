@@ -134,7 +134,7 @@ void Courant::share(CellField<Vec3>& change, const FaceField<Real>& kappa, Real 
     change[c] = sum / all;
   };
   if (all_of_ranks(fast_.empty())) return;
-  constexpr int sweeps = 4;
+  constexpr int sweeps = 8;
   for (int k = 0; k < sweeps; ++k) {
     std::for_each(fast_.begin(), fast_.end(), renew);
     std::for_each(fast_.rbegin(), fast_.rend(), renew);

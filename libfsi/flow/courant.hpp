@@ -53,7 +53,7 @@ class Courant {
                     const FaceWeights& weights);
   /// Collective, after `add_implicit`. Applies to `change`, which is taken off the velocity after
   /// the momentum equation, the matrix of that equation: (V + K) new = V change. In cells with
-  /// iota_c > 0 four symmetric Gauss-Seidel sweeps solve
+  /// iota_c > 0 eight symmetric Gauss-Seidel sweeps solve
   ///   (V_c + sum_f k_f) new_c - sum_f k_f new_N = V_c change_c,   k_f = kappa_f g_f dt / rho.
   /// All other cells keep their change. Without this the pressure gradient would move a flat cell
   /// in full in each step, but the forces that bring it back by V / (V + K) only, and flat cells

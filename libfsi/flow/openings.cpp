@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
@@ -17,7 +18,7 @@ Openings::Openings(const Mesh& mesh, const std::vector<Condition>& conditions, R
       openings_.push_back({mesh.patches[i], opening->pressure, opening->load,
                            opening->pressure(0) + opening->load.stored, opening->load.stored});
       One& one = openings_.back();
-      set_basis(one);
+      set_basis(one, conditions);
       one.sums.resize(one.basis.size() + 2), one.totals.resize(one.sums.size());
     }
 }
@@ -44,7 +45,42 @@ bool Openings::orthonormalise(const One& opening, std::vector<Real>& e) const {
   return true;
 }
 
-void Openings::set_basis(One& opening) const {
+// At most two, at right angles to each other and to the opening; others make no profile even.
+std::vector<geometry::Mirror> Openings::mirrors_at(const One& opening,
+                                                   const std::vector<Condition>& conditions) const {
+  constexpr Real none = std::numeric_limits<Real>::max(), rounding = 1e-6;
+  std::vector<char> at_opening(mesh_.points.size(), 0);
+  for (Index f = opening.patch.begin; f < opening.patch.end; ++f)
+    for (const Index p : mesh_.face_points[f]) at_opening[p] = 1;
+  std::vector<geometry::Mirror> found, mirrors;
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index f = mesh_.patches[i].begin; lets_slip(conditions[i]) && f < mesh_.patches[i].end;
+         ++f)
+      if (std::ranges::any_of(mesh_.face_points[f], [&](Index p) { return at_opening[p] != 0; }))
+        found.push_back({mesh_.Cf[f], mesh_.Sf[f] / norm(mesh_.Sf[f])});
+  while (true) {
+    // The same plane on all ranks: that of the largest normal by this order.
+    const auto order = [](const Vec3& n) { return n.x + n.y / 3 + n.z / 7; };
+    Real largest = -none;
+    for (const geometry::Mirror& plane : found) largest = std::max(largest, order(plane.n));
+    largest = global_max(largest);
+    if (largest == -none) return mirrors;
+    geometry::Mirror one{{-none, -none, -none}, {-none, -none, -none}};
+    for (const geometry::Mirror& plane : found)
+      for (int i = 0; i < 3 && order(plane.n) >= largest - rounding; ++i)
+        one.n[i] = std::max(one.n[i], plane.n[i]), one.x[i] = std::max(one.x[i], plane.x[i]);
+    for (int i = 0; i < 3; ++i) one.n[i] = global_max(one.n[i]), one.x[i] = global_max(one.x[i]);
+    bool fits = std::abs(dot(one.n, opening.normal)) < rounding && mirrors.size() < 2;
+    for (const geometry::Mirror& other : mirrors)
+      fits = fits && std::abs(dot(one.n, other.n)) < rounding;
+    if (!fits) return {};
+    mirrors.push_back(one);
+    std::erase_if(
+        found, [&](const geometry::Mirror& plane) { return dot(plane.n, one.n) > 1 - rounding; });
+  }
+}
+
+void Openings::set_basis(One& opening, const std::vector<Condition>& conditions) const {
   std::array<Sum, 7> sums;
   for (Index j = 0; j < opening.faces(); ++j) {
     const Vec3 &S = mesh_.Sf[opening.patch.begin + j], &x = mesh_.Cf[opening.patch.begin + j];
@@ -66,20 +102,33 @@ void Openings::set_basis(One& opening) const {
   const Vec3 other = mesh_.dim == 2                     ? Vec3{0, 0, 1}
                      : std::abs(opening.normal.x) < 0.7 ? Vec3{1, 0, 0}
                                                         : Vec3{0, 1, 0};
-  const Vec3 across = cross(opening.normal, other), v = across / norm(across);
+  const std::vector<geometry::Mirror> mirrors = mirrors_at(opening, conditions);
+  const Vec3 across = cross(opening.normal, other);
+  const Vec3 v = mirrors.empty() ? across / norm(across) : mirrors[0].n;
   const Vec3 w = cross(opening.normal, v);
+  // Across a plane of symmetry the profile is even about the plane.
+  const bool even_v = !mirrors.empty(), even_w = mirrors.size() > 1;
+  const Real v_0 = dot(even_v ? mirrors[0].x : centre, v),
+             w_0 = dot(even_w ? mirrors[1].x : centre, w);
   const Real size = mesh_.dim == 2 ? total[6] / 2 : std::sqrt(total[6]) / 2;
   constexpr int highest = 4;
-  for (int degree = 0; degree <= highest; ++degree)
-    for (int k = 0; k <= degree; ++k) {
-      if (4 * (static_cast<GlobalIndex>(opening.basis.size()) + 1) > n && degree > 0) return;
-      std::vector<Real> e(static_cast<std::size_t>(opening.faces()));
+  for (int degree = 0; degree <= highest; ++degree) {
+    std::vector<std::vector<Real>> of_degree;
+    for (int k = mesh_.dim == 2 ? degree : 0; k <= degree; ++k) {
+      if ((even_v && k % 2 != 0) || (even_w && (degree - k) % 2 != 0)) continue;
+      std::vector<Real>& e = of_degree.emplace_back(static_cast<std::size_t>(opening.faces()));
       for (Index j = 0; j < opening.faces(); ++j) {
-        const Vec3 r = (mesh_.Cf[opening.patch.begin + j] - centre) / size;
-        e[j] = std::pow(dot(r, v), k) * std::pow(dot(r, w), degree - k);
+        const Vec3& x = mesh_.Cf[opening.patch.begin + j];
+        e[j] =
+            std::pow((dot(x, v) - v_0) / size, k) * std::pow((dot(x, w) - w_0) / size, degree - k);
       }
-      if (orthonormalise(opening, e)) opening.basis.push_back(std::move(e));
     }
+    // All terms of a degree or none, so that the directions of v and w do not matter.
+    if (degree > 0 && 4 * static_cast<GlobalIndex>(opening.basis.size() + of_degree.size()) > n)
+      return;
+    for (std::vector<Real>& e : of_degree)
+      if (orthonormalise(opening, e)) opening.basis.push_back(std::move(e));
+  }
 }
 
 void Openings::set_pressure(BoundaryField<Real>& p_b, const CellField<Vec3>& u) {

@@ -7,6 +7,7 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/operators/face_weights.hpp"
 
 namespace fsi::flow {
@@ -20,8 +21,9 @@ namespace fsi::flow {
 ///
 ///   p_b = p + rho / 2 (epsilon uhat_n^2 - u_n^2)     where u_n = u_P . n < 0.
 ///
-/// uhat_n is the least-squares fit of u_n over the opening by polynomials of up to fourth degree in
-/// its plane, at most one for four faces. epsilon is the net inflow over the inflow, and 0 if the
+/// uhat_n is the least-squares fit of u_n over the opening by polynomials in its plane, at most one
+/// for four faces. They are of fourth degree, of a lower one where the faces are few, and even
+/// about planes of symmetry. epsilon is the net inflow over the inflow, and 0 if the
 /// net flow is outward. A smooth inlet thus keeps its static pressure. Backflow into an outlet
 /// costs its own dynamic pressure, as with the directional do-nothing condition [Braack14].
 class Openings {
@@ -73,7 +75,10 @@ class Openings {
   /// u_b at a face of an opening.
   Vec3 velocity(Index f, const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
                 const FaceWeights& weights) const;
-  void set_basis(One& opening) const;
+  /// Collective. The planes of symmetry that meet the opening.
+  std::vector<geometry::Mirror> mirrors_at(const One& opening,
+                                           const std::vector<Condition>& conditions) const;
+  void set_basis(One& opening, const std::vector<Condition>& conditions) const;
   bool orthonormalise(const One& opening, std::vector<Real>& e) const;
 
   const Mesh& mesh_;

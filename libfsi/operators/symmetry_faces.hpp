@@ -38,12 +38,13 @@ inline SymTensor image(const SymTensor& T, const Vec3& n) {
 
 /// Calls f(k, r, n) for the images of owned cell c and of its vertex neighbours in each plane of
 /// symmetry on which c has a face. n is the normal of the plane, and r leads from the centre of c
-/// to that of the image of k. Only cells next to the plane count: their centre is less than twice
-/// as far from it as that of c. For a triangle or tetrahedron c the factor is 3.5: cells with only
-/// a corner on the plane are up to three times as far away.
+/// to that of the image of k. Only cells next to the plane count: their centre is less than 2.5
+/// times as far from it as that of c. Between a prism with a face on the plane and one with an edge
+/// on it the factor is 2, and to the next layer of hexahedra 3. For a triangle or tetrahedron c the
+/// factor is 3.5: cells with only a corner on the plane are up to three times as far away.
 template <class Function>
 void for_images(Index c, const SymmetryFaces& symmetry, const Mesh& mesh, Function&& f) {
-  const Real reach = mesh.simplex(c) ? 3.5 : 2;
+  const Real reach = mesh.simplex(c) ? 3.5 : 2.5;
   for (const Index face : mesh.cell_faces[c]) {
     if (!symmetry.has(face, mesh)) continue;
     const Vec3 n = mesh.Sf[face] / norm(mesh.Sf[face]);

@@ -143,7 +143,7 @@ OutputSetup read_output(Options& options, const std::string& driver) {
                    {.help = "time between field files; 0: none", .unit = "time", .min = 0});
   output.sample_interval = options.real(
       "sample_interval", 0,
-      {.help = "time between rows of the csv files, which cut no step; 0: a row every step",
+      {.help = "time between rows of the csv files, which cut no step, unless its limit jumps up; 0: a row every step",
        .unit = "time",
        .min = 0});
   output.checkpoint_interval =

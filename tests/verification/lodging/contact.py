@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Where a soft disc lodges in a throat: contact.py [CELLS [PENALTY]] > reference.csv
+"""Where a soft body lodges in a throat: contact.py [BODY [CELLS [PENALTY]]] > reference.csv
 
-Equilibria of a neo-Hookean disc in plane strain between two smooth frictionless walls, by finite elements in the
-undeformed disc. This is no code of the library, and solves for rest at once: without fluid, friction and time. The
-pressure p acts on the surface upstream of the contact, none acts downstream.
+Equilibria of a neo-Hookean body at smooth frictionless walls, by finite elements in the undeformed body. BODY is disc
+(in plane strain between two walls) or sphere (in a round vessel, y being the radius). This is no code of the library,
+and solves for rest at once: without fluid, friction and time. The pressure p acts on the surface upstream of the
+contact, none acts downstream.
 
-  minimise  int G/2 (F : F - 2) dV + kappa/2 int (J - 1)^2 dV + k/2 int <g>^2 dS,   g = |y| - w(x),
+  minimise  int G/2 (F : F - I : I) dV + kappa/2 int (J - 1)^2 dV + k/2 int <g>^2 dS,   g = |y| - w(x),
 
 with the work of p, which follows the surface. Elements are quadrilaterals of nine nodes with a linear pressure that may
 jump between them. Where the surface touches the wall its normal stress is the pressure plus that of the contact, so it
@@ -20,21 +21,33 @@ import sys
 
 import numpy as np
 
-RADIUS, G, THROAT, HALF, MIDDLE = 0.3, 5.0, 0.4, 1.0, 2.0
+G = 5.0
 KAPPA = 2000 * G
 TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 GAUSS = np.array([-math.sqrt(0.6), 0.0, math.sqrt(0.6)]), np.array([5, 8, 5]) / 9
 NODES = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (1, 2), (2, 1), (0, 2), (2, 2))
 
 
-def half_height(x):
-    """w of meshes/throat.geo, and its first and second derivative."""
-    s, a = (x - MIDDLE) / HALF, (1 - THROAT) / 4
-    if abs(s) >= 1:
-        return 0.5, 0.0, 0.0
-    slope = a * math.pi / HALF
-    return (0.5 - a * (1 + math.cos(math.pi * s)), slope * math.sin(math.pi * s),
-            slope * math.pi / HALF * math.cos(math.pi * s))
+class Scene:
+    """Body and walls; throat: its width over that of the vessel, which is 1; half: half of its length."""
+
+    def __init__(self, radius, throat, half, middle, first, last, axis):
+        self.radius, self.throat, self.half, self.middle = radius, throat, half, middle
+        self.first, self.last = first, last  # x of the centroid; at the first the body hardly touches the walls
+        self.axis = axis  # whether it turns about y = 0
+
+    def half_height(self, x):
+        """w of the mesh, and its first and second derivative."""
+        s, a = (x - self.middle) / self.half, (1 - self.throat) / 4
+        if abs(s) >= 1:
+            return 0.5, 0.0, 0.0
+        slope = a * math.pi / self.half
+        return (0.5 - a * (1 + math.cos(math.pi * s)), slope * math.sin(math.pi * s),
+                slope * math.pi / self.half * math.cos(math.pi * s))
+
+
+SCENES = {"disc": Scene(0.3, 0.4, 1.0, 2.0, 1.545, 1.86, False),      # meshes/throat.geo
+          "sphere": Scene(0.35, 0.5, 1.5, 3.0, 2.295, 2.78, True)}      # meshes/stenosis.geo, throat 3
 
 
 def line(s):
@@ -42,9 +55,9 @@ def line(s):
     return np.array([s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s]), np.array([s - 0.5, s + 0.5, -2 * s])
 
 
-def half_disc(cells):
+def half_disc(cells, radius):
     """Nodes, elements and edges of the upper half: a rectangle with three blocks around it."""
-    core, found, nodes, elements, edges = 0.55 * RADIUS, {}, [], [], []
+    core, found, nodes, elements, edges = 0.55 * radius, {}, [], [], []
 
     def node(x, y):
         key = (round(x * 1e7), round(y * 1e7))
@@ -68,7 +81,7 @@ def half_disc(cells):
         def place(s, t):
             angle = begin + (end - begin) * s
             inner = np.array(p) + (np.array(q) - p) * s
-            return inner + (RADIUS * np.array([math.cos(angle), math.sin(angle)]) - inner) * t
+            return inner + (radius * np.array([math.cos(angle), math.sin(angle)]) - inner) * t
         return place
 
     quarter = math.pi / 4
@@ -79,10 +92,11 @@ def half_disc(cells):
     return np.array(nodes), np.array(elements), np.array(edges)
 
 
-class Disc:
-    def __init__(self, cells, penalty):
-        self.X, self.elements, self.edges = half_disc(cells)
-        self.k = penalty * G / RADIUS
+class Body:
+    def __init__(self, scene, cells, penalty):
+        self.scene = scene
+        self.X, self.elements, self.edges = half_disc(cells, scene.radius)
+        self.k = penalty * G / scene.radius
         self.free = np.ones(2 * len(self.X), bool)
         self.free[1::2] = np.abs(self.X[:, 1]) > 1e-9  # the other half is the mirror image
         self.seal = math.radians(80)  # undeformed angle where the pressure ends
@@ -95,8 +109,11 @@ class Disc:
                     N = np.array([a[i] * b[j] for i, j in NODES])
                     D = np.array([(da[i] * b[j], a[i] * db[j]) for i, j in NODES])
                     jacobian = self.X[element].T @ D
-                    volume = ws * wt * np.linalg.det(jacobian)
-                    of_element.append((D @ np.linalg.inv(jacobian), volume, np.array([1, s, t])))
+                    R = N @ self.X[element][:, 1] if scene.axis else 1.0
+                    volume = ws * wt * np.linalg.det(jacobian) * R
+                    # the stretch about the axis is hoop . (values at the nodes)
+                    hoop = np.kron(N / R, [0.0, 1.0]) if scene.axis else np.zeros(18)
+                    of_element.append((D @ np.linalg.inv(jacobian), volume, np.array([1, s, t]), hoop))
                     self.mass[element] += N * volume
             self.points.append(of_element)
         self.mass /= self.mass.sum()
@@ -107,17 +124,23 @@ class Disc:
         for element, points in zip(self.elements, self.points):
             M, defect, dJ = np.zeros((3, 3)), np.zeros(3), np.zeros((3, 18))
             force, stiffness, bends = np.zeros(18), np.zeros((18, 18)), []
-            for dN, volume, phi in points:
+            for dN, volume, phi, hoop in points:
                 deformation = x[element].T @ dN
-                J = np.linalg.det(deformation)
+                plane, stretch = np.linalg.det(deformation), 1.0
+                if self.scene.axis:
+                    stretch = hoop @ x[element].ravel()
+                J = plane * stretch
                 cofactor = TURN @ deformation @ TURN.T
+                of_plane = (dN @ cofactor.T).ravel()
+                of_J = stretch * of_plane + plane * hoop
                 M += np.outer(phi, phi) * volume
                 defect += phi * (J - 1) * volume
-                dJ += np.outer(phi, (dN @ cofactor.T).ravel()) * volume
-                energy += (G / 2 * (np.sum(deformation**2) - 2) - G * (J - 1)) * volume
-                force += G * (dN @ (deformation - cofactor).T).ravel() * volume
-                stiffness += G * np.kron(dN @ dN.T, np.eye(2)) * volume
-                bends.append((phi, volume * np.kron(dN @ TURN @ dN.T, TURN)))
+                dJ += np.outer(phi, of_J) * volume
+                energy += (G / 2 * (np.sum(deformation**2) + stretch**2 - 3) - G * (J - 1)) * volume
+                force += G * ((dN @ deformation.T).ravel() + stretch * hoop - of_J) * volume
+                stiffness += G * (np.kron(dN @ dN.T, np.eye(2)) + np.outer(hoop, hoop)) * volume
+                bends.append((phi, volume * (stretch * np.kron(dN @ TURN @ dN.T, TURN) +
+                                             np.outer(of_plane, hoop) + np.outer(hoop, of_plane))))
             pressure = np.linalg.solve(M, defect)
             force += KAPPA * dJ.T @ pressure
             stiffness += KAPPA * dJ.T @ np.linalg.solve(M, dJ)
@@ -136,8 +159,8 @@ class Disc:
             for s, weight in zip(*GAUSS):
                 N, D = line(s)
                 X, here, along = N @ self.X[edge], N @ x[edge], D @ x[edge]
-                length = weight * np.linalg.norm(D @ self.X[edge])
-                w, slope, curvature = half_height(here[0])
+                length = weight * np.linalg.norm(D @ self.X[edge]) * (X[1] if self.scene.axis else 1)
+                w, slope, curvature = self.scene.half_height(here[0])
                 depth, angle = here[1] - w, math.atan2(X[1], X[0])
                 if depth > 0:
                     inward, along_x = np.kron(N, [-slope, 1.0]), np.kron(N, [1.0, 0.0])
@@ -147,8 +170,13 @@ class Disc:
                 if depth > deepest:
                     deepest, angle_there = depth, angle
                 if angle > self.seal:  # with n dS = (y', -x') ds outwards
-                    per_p[at] -= weight * np.kron(N, TURN @ along * self.outwards(edge))
-                    K[np.ix_(at, at)] -= p * weight * self.outwards(edge) * np.kron(np.outer(N, D), TURN)
+                    push = weight * self.outwards(edge) * np.kron(N, TURN @ along)
+                    bend = weight * self.outwards(edge) * np.kron(np.outer(N, D), TURN)
+                    if self.scene.axis:
+                        bend = here[1] * bend + np.outer(push, np.kron(N, [0.0, 1.0]))
+                        push = here[1] * push
+                    per_p[at] -= push
+                    K[np.ix_(at, at)] -= p * bend
         F += p * per_p
         return per_p, angle_there
 
@@ -177,20 +205,20 @@ class Disc:
             x, p = x.reshape(-1, 2), p + change[-1]
             if largest < 1e-9:
                 self.seal = deepest
-                return x, p, 2 * energy
+                return x, p, (2 * math.pi if self.scene.axis else 2) * energy
         raise SystemExit(f"no equilibrium at x = {centroid}")
 
 
 def main():
-    cells, penalty = (int(a) for a in (sys.argv[1:] + ["4", "6000"][len(sys.argv) - 1:]))
-    disc = Disc(cells, penalty)
-    at, step, p = 1.545, 0.0025, 0.0  # the disc first touches the walls at 1.546
-    x = disc.X + np.array([at, 0])
+    name, cells, penalty = (sys.argv[1:] + ["disc", "4", "6000"][len(sys.argv) - 1:])
+    scene = SCENES[name]
+    body, step, p = Body(scene, int(cells), int(penalty)), 0.0025, 0.0
+    x = body.X + np.array([scene.first, 0])
     print("x,pressure,elastic_energy")
-    for i in range(int(round((1.86 - at) / step)) + 1):
-        x, p, energy = disc.rest(x, p, at + i * step)
+    for i in range(int(round((scene.last - scene.first) / step)) + 1):
+        x, p, energy = body.rest(x, p, scene.first + i * step)
         if i % 2 == 0:
-            print(f"{at + i * step:.4f},{p:.5f},{energy:.6f}", flush=True)
+            print(f"{scene.first + i * step:.4f},{p:.5f},{energy:.6f}", flush=True)
 
 
 if __name__ == "__main__":
