@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/planes_at.hpp"
 
 namespace fsi::flow {
 
@@ -45,41 +45,6 @@ bool Openings::orthonormalise(const One& opening, std::vector<Real>& e) const {
   return true;
 }
 
-// At most two, at right angles to each other and to the opening; others make no profile even.
-std::vector<geometry::Mirror> Openings::mirrors_at(const One& opening,
-                                                   const std::vector<Condition>& conditions) const {
-  constexpr Real none = std::numeric_limits<Real>::max(), rounding = 1e-6;
-  std::vector<char> at_opening(mesh_.points.size(), 0);
-  for (Index f = opening.patch.begin; f < opening.patch.end; ++f)
-    for (const Index p : mesh_.face_points[f]) at_opening[p] = 1;
-  std::vector<geometry::Mirror> found, mirrors;
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    for (Index f = mesh_.patches[i].begin; lets_slip(conditions[i]) && f < mesh_.patches[i].end;
-         ++f)
-      if (std::ranges::any_of(mesh_.face_points[f], [&](Index p) { return at_opening[p] != 0; }))
-        found.push_back({mesh_.Cf[f], mesh_.Sf[f] / norm(mesh_.Sf[f])});
-  while (true) {
-    // The same plane on all ranks: that of the largest normal by this order.
-    const auto order = [](const Vec3& n) { return n.x + n.y / 3 + n.z / 7; };
-    Real largest = -none;
-    for (const geometry::Mirror& plane : found) largest = std::max(largest, order(plane.n));
-    largest = global_max(largest);
-    if (largest == -none) return mirrors;
-    geometry::Mirror one{{-none, -none, -none}, {-none, -none, -none}};
-    for (const geometry::Mirror& plane : found)
-      for (int i = 0; i < 3 && order(plane.n) >= largest - rounding; ++i)
-        one.n[i] = std::max(one.n[i], plane.n[i]), one.x[i] = std::max(one.x[i], plane.x[i]);
-    for (int i = 0; i < 3; ++i) one.n[i] = global_max(one.n[i]), one.x[i] = global_max(one.x[i]);
-    bool fits = std::abs(dot(one.n, opening.normal)) < rounding && mirrors.size() < 2;
-    for (const geometry::Mirror& other : mirrors)
-      fits = fits && std::abs(dot(one.n, other.n)) < rounding;
-    if (!fits) return {};
-    mirrors.push_back(one);
-    std::erase_if(
-        found, [&](const geometry::Mirror& plane) { return dot(plane.n, one.n) > 1 - rounding; });
-  }
-}
-
 void Openings::set_basis(One& opening, const std::vector<Condition>& conditions) const {
   std::array<Sum, 7> sums;
   for (Index j = 0; j < opening.faces(); ++j) {
@@ -102,7 +67,10 @@ void Openings::set_basis(One& opening, const std::vector<Condition>& conditions)
   const Vec3 other = mesh_.dim == 2                     ? Vec3{0, 0, 1}
                      : std::abs(opening.normal.x) < 0.7 ? Vec3{1, 0, 0}
                                                         : Vec3{0, 1, 0};
-  const std::vector<geometry::Mirror> mirrors = mirrors_at(opening, conditions);
+  std::vector<Patch> slips;
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (lets_slip(conditions[i])) slips.push_back(mesh_.patches[i]);
+  const std::vector<geometry::Mirror> mirrors = planes_at(opening.patch, slips, mesh_);
   const Vec3 across = cross(opening.normal, other);
   const Vec3 v = mirrors.empty() ? across / norm(across) : mirrors[0].n;
   const Vec3 w = cross(opening.normal, v);

@@ -7,7 +7,6 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/field.hpp"
-#include "libfsi/geometry/mirror.hpp"
 #include "libfsi/operators/face_weights.hpp"
 
 namespace fsi::flow {
@@ -75,9 +74,6 @@ class Openings {
   /// u_b at a face of an opening.
   Vec3 velocity(Index f, const CellField<Vec3>& u, const std::vector<Tensor>& L_f,
                 const FaceWeights& weights) const;
-  /// Collective. The planes of symmetry that meet the opening.
-  std::vector<geometry::Mirror> mirrors_at(const One& opening,
-                                           const std::vector<Condition>& conditions) const;
   void set_basis(One& opening, const std::vector<Condition>& conditions) const;
   bool orthonormalise(const One& opening, std::vector<Real>& e) const;
 

@@ -141,11 +141,12 @@ OutputSetup read_output(Options& options, const std::string& driver) {
   output.field_interval =
       options.real("output_interval", 0,
                    {.help = "time between field files; 0: none", .unit = "time", .min = 0});
-  output.sample_interval = options.real(
-      "sample_interval", 0,
-      {.help = "time between rows of the csv files, which cut no step, unless its limit jumps up; 0: a row every step",
-       .unit = "time",
-       .min = 0});
+  output.sample_interval =
+      options.real("sample_interval", 0,
+                   {.help = "time between rows of the csv files, which cut no step, unless its "
+                            "limit jumps up; 0: a row every step",
+                    .unit = "time",
+                    .min = 0});
   output.checkpoint_interval =
       options.real("checkpoint_interval", 0,
                    {.help = "time between checkpoints, of which the two newest are kept; 0: one "

@@ -8,12 +8,14 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/io/crc.hpp"
 #include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
@@ -34,6 +36,20 @@ bool of_undeformed_solid(const std::string& name) {
                                 "height", "axes",   "path", "arc_length"};
   return name.starts_with("solid") &&
          std::ranges::any_of(geometry, [&](const char* end) { return name.ends_with(end); });
+}
+
+/// The value of an option. Behind the name of a table stands a check of its content.
+std::string with_content(const std::string& value) {
+  std::ifstream file(value, std::ios::binary);
+  if (!value.ends_with(".csv") || !file) return value;
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto check = io::crc64(std::as_bytes(std::span(text.data(), text.size())));
+  return value + print(" [%016llx]", static_cast<unsigned long long>(check));
+}
+std::string without_content(const std::string& value) {
+  return value.ends_with("]") && value.find(".csv [") != std::string::npos
+             ? value.substr(0, value.rfind(" ["))
+             : value;
 }
 
 /// Without the lines that begin with "solid".
@@ -60,7 +76,7 @@ std::string simulated(const Options& options) {
   for (const auto& [name, value] : options.values()) {
     const auto begins = [&, &key = name](const char* start) { return key.starts_with(start); };
     if (std::ranges::none_of(not_simulated, begins))
-      text.append(name).append(" ").append(value).append("\n");
+      text.append(name).append(" ").append(with_content(value)).append("\n");
   }
   return text;
 }
@@ -74,12 +90,15 @@ std::string differences(const std::string& before, const std::string& now) {
   for (const std::string& name : names) {
     const auto was = old.find(name), is = current.find(name);
     if (was != old.end() && is != current.end() && was->second == is->second) continue;
+    const std::string then = was == old.end() ? "" : without_content(was->second),
+                      here = is == current.end() ? "left out" : without_content(is->second);
+    if (is != current.end() && was != old.end() && was->second == here) continue;  // without check
     std::string& list = of_undeformed_solid(name) ? undeformed : text;
-    list += (list.empty() ? "-" : ", -") + name + " ";
-    list += is == current.end() ? "left out" : is->second;
+    list += (list.empty() ? "-" : ", -") + name + " " + here;
     list += name.ends_with("_stored_pressure") ? " (without effect: that of the checkpoint is kept)"
             : was == old.end()                 ? " (was not given)"
-                                               : " (was " + was->second + ")";
+            : then == here                     ? " (with another content)"
+                                               : " (was " + then + ")";
   }
   require(undeformed.empty(), "a run that goes on has the solids of its checkpoint, but here is " +
                                   undeformed + "; give what was given there");

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/planes_at.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/gap.hpp"
 
@@ -45,6 +45,11 @@ Real area_of(const Patch& patch, const Mesh& mesh) {
 
 PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
   PeakFlow peak;
+  std::vector<Patch> mirrors;
+  for (const Patch& patch : mesh.patches) {
+    const auto found = conditions.find(patch.name);
+    if (found != conditions.end() && lets_slip(found->second)) mirrors.push_back(patch);
+  }
   for (const Patch& patch : mesh.patches) {
     const auto found = conditions.find(patch.name);
     if (found == conditions.end()) continue;
@@ -52,7 +57,7 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
     const auto* fixed = std::get_if<FixedVelocity>(&found->second);
     if (rate == nullptr && fixed == nullptr) continue;
     const Real A = area_of(patch, mesh);
-    const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
+    const Real D = flow::whole_diameter(patch, mirrors, mesh);
     const int times = rate != nullptr ? 4000 : 100;
     for (int i = 0; i <= 2 * times; ++i) {
       // Even times alone may meet a pulse at one phase.

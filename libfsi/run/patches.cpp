@@ -16,6 +16,7 @@
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
+#include "libfsi/flow/planes_at.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/table_file.hpp"
 #include "libfsi/run/velocity_table.hpp"
@@ -79,10 +80,10 @@ class PatchOptions {
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
     OfTime values = series(text, period, {key, symbol, "value"}, of(key));
-    tell_of_constant(values, text, key, symbol);
+    if (period == 0) tell_of_constant(values, text, key, symbol);
     return values;
   }
-  /// A notice if a table varies, but not during the run.
+  /// A notice if a table varies, but not during the run, or not to its end.
   void tell_of_constant(const OfTime& values, const std::string& file, const std::string& key,
                         const std::string& symbol) {
     Options aside(options_);
@@ -96,6 +97,12 @@ class PatchOptions {
           "fsi: notice: file \"%s\": its values are %g during the whole run to t = %g; its "
           "times go from %g to %g: are both in the same units?\n",
           file.c_str(), most, end, rows.front()[0], rows.back()[0]);
+    else if (rank() == 0 && rows.back()[0] < end && std::ranges::any_of(rows, other))
+      std::fprintf(stderr,
+                   "fsi: notice: file \"%s\": its last time is %g, and the run goes to t = %g; its "
+                   "last value %g holds from then on; if its values come again, give "
+                   "-%speriod\n",
+                   file.c_str(), rows.back()[0], end, rows.back()[1], name_.c_str());
   }
 
   Condition wall() {
@@ -302,6 +309,11 @@ Path read_path(Options& options, const std::string& of) {
 /// Collective. Puts the solids on their paths.
 void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh& mesh) {
   Options aside(options);
+  // The centre line of half a vessel lies in the plane of symmetry, and so do solids on it.
+  std::vector<Patch> mirrors;
+  for (const Patch& patch : mesh.patches)
+    if (aside.text("patches_" + patch.name + "_type", patch.name, "") == "symmetry")
+      mirrors.push_back(patch);
   for (const std::string& of : solids_without_shape(options)) read_path(aside, of);
   for (SolidSetup& solid : solids) {
     const std::string& of = solid.options;
@@ -325,7 +337,11 @@ void place_solids(std::vector<SolidSetup>& solids, Options& options, const Mesh&
                 print("arc_length: %g is not between 0 and %.4g, the length of the ", s,
                       line.length()) +
                 "centre line from " + path[0] + " to " + path[1]);
-    const auto [at, along] = line.at(s);
+    auto [at, along] = line.at(s);
+    for (const geometry::Mirror& plane : flow::planes_at(mesh.patch(path[0]), mirrors, mesh)) {
+      at = plane.foot(at), along -= dot(along, plane.n) * plane.n;
+      along = along / norm(along);
+    }
     const shapes::Shape aligned = shapes::align(solid.about_origin, along);
     const Real turn = solid.angle * std::numbers::pi / 180;
     solid.centre = at;

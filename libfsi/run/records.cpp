@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/flow/planes_at.hpp"
 #include "libfsi/operators/pieces.hpp"
 #include "libfsi/run/taylor.hpp"
 #include "libfsi/solver/energy.hpp"
@@ -86,6 +86,9 @@ Real pressure_drop(const Solver& solver) {
 /// Columns of each patch that fluid goes through, and the largest Reynolds number there.
 void add_openings(std::vector<Entry>& row, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
+  std::vector<Patch> mirrors;
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i)
+    if (lets_slip(solver.conditions()[i])) mirrors.push_back(mesh.patches[i]);
   Real velocity_length = 0;
   bool any = false;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
@@ -99,8 +102,8 @@ void add_openings(std::vector<Entry>& row, const Solver& solver) {
     row.push_back({"mean_pressure_" + patch.name,
                    open ? solver.opening_pressure(patch.name) : mean_pressure_beside(solver, patch),
                    Course::pressure});
-    const Real D = mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
-    velocity_length = std::max(velocity_length, std::abs(Q) / A * D);
+    velocity_length =
+        std::max(velocity_length, std::abs(Q) / A * flow::whole_diameter(patch, mirrors, mesh));
   }
   if (any)
     row.push_back({"reynolds", solver.physics().rho * velocity_length / solver.physics().mu_f});

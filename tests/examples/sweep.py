@@ -105,6 +105,18 @@ def main():
           all(abs(float(row["t"]) - 20) < 1e-9 for row in rows), "the table holds the end of each")
     check(os.path.exists(os.path.join(out, "sweep.png")), "and is drawn")
 
+    with open(mesh, "a", encoding="utf-8") as file:
+        file.write("\n")
+    brief = ["0.01" if word == "20" else word for word in command]
+    subprocess.run(brief, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    logs = text(first, "log.txt")
+    subprocess.run(brief, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    check(text(first, "log.txt") == logs, "what is complete is left")
+    with open(mesh, "a", encoding="utf-8") as file:
+        file.write("\n")
+    subprocess.run(brief, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    check(text(first, "log.txt") != logs, "and runs anew where the mesh has changed")
+
     named = os.path.join(folder, "named.csv")
     with open(named, "w", encoding="utf-8") as file:
         file.write("name, lid_velocity\nslow, 0.5\nas it is, -\n")

@@ -94,6 +94,23 @@ def check_meshes(source, drivers, folder):
     said = run(round_wall + ["-patches_inlet_pressure", "late.csv"], folder)
     check(said.returncode == 0 and "its values are 1 during the whole run" in said.stderr,
           "a table of other times is told of: " + said.stderr)
+    with open(os.path.join(folder, "short.csv"), "w", encoding="utf-8") as file:
+        file.write("t,p\n0,1\n0.00005,2\n")
+    said = run(round_wall + ["-patches_inlet_pressure", "short.csv"], folder)
+    check(said.returncode == 0 and "its last value 2 holds from then on" in said.stderr,
+          "and one that ends before the run: " + said.stderr)
+    duct = [os.path.join(drivers, "fsi-vessel"), "-mesh", "duct.msh", "-output_dir", "out", "-time_end", "0.0001",
+            "-solid_shape", "sphere", "-solid_radius", "0.2", "-solid_path", "left,right", "-solid_arc_length", "0.5",
+            "-patches_left_type", "flow_rate", "-patches_left_flow_rate", "0.25", "-patches_right_type", "pressure"]
+    for side in ("bottom", "top", "back", "front"):
+        duct += [f"-patches_{side}_type", "symmetry" if side in ("bottom", "back") else "wall"]
+    run(["gmsh", "-3", os.path.join(source, "meshes", "box.geo"), "-setnumber", "n", "8", "-o", "duct.msh"], folder,
+        check=True)
+    said = run(duct, folder)
+    place = re.search(r"along it: at \((.*), (.*), (.*)\)", said.stdout)
+    check(place and abs(float(place.group(2))) + abs(float(place.group(3))) < 1e-9,
+          "in a quarter the centre line is on the planes of symmetry: " + said.stdout + said.stderr)
+    check("mean velocity 0.25 and the diameter 2.257" in said.stdout, "and the diameter that of the whole")
     said = run(round_wall + ["-patches_wall_type", "symmetry"], folder)
     check(said.returncode == 0 and 'patch "wall" of type symmetry is curved' in said.stderr,
           "a round plane of symmetry is: " + said.stderr)
