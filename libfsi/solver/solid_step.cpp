@@ -268,7 +268,8 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
       .kink = !map,
       .one_sided = body.interface_gradient.has_value(),
       .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
-      .rho_least = flow.rho_least};
+      .rho_least = flow.rho_least,
+      .known = body.film && body.remembers() ? &body.film->fraction() : nullptr};
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 

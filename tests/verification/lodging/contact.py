@@ -47,7 +47,7 @@ class Scene:
 
 
 SCENES = {"disc": Scene(0.3, 0.4, 1.0, 2.0, 1.545, 1.86, False),      # meshes/throat.geo
-          "sphere": Scene(0.35, 0.5, 1.5, 3.0, 2.295, 2.78, True)}      # meshes/stenosis.geo, throat 3
+          "sphere": Scene(0.35, 0.5, 1.5, 3.0, 2.295, 2.775, True)}      # meshes/stenosis.geo, throat 3
 
 
 def line(s):

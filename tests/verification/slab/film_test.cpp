@@ -87,7 +87,7 @@ TEST(Film, WithMemoryTheSolidSlipsPastItsOutermostCells) {
         Film{16, 0.3, true, 10 * mu, false, true}}) {
     const Result result = slide(film);
     EXPECT_GE(result.velocity, 0.99);
-    EXPECT_LE(result.velocity, 1.22);
+    EXPECT_LE(result.velocity, 1.06);
   }
 }
 
