@@ -128,7 +128,7 @@ Vec3 SemiImplicitElasticity::hold_of_film(Real& k, const ElasticTerms& solid,
 
 Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights,
                                      Index f, Real l) const {
-  constexpr Real explicit_part = 1.5;  // of kappa + mu_rho, for stability
+  constexpr Real in_boxes = 1.5, in_simplices = 1;  // of kappa + mu_rho, for stability
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real d = norm(mesh_.d[f]);
   Real e = d * std::sqrt(solid.rho * solid.G * l);
@@ -142,7 +142,7 @@ Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const F
     if (!in_zone && solid.normal)
       e *= part_along((*solid.normal)[P] + (*solid.normal)[N], mesh_.d[f]);
     e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
-    k += std::max(e / explicit_part - k - inertia, Real{0});
+    k += std::max(e / (in_zone ? in_simplices : in_boxes) - k - inertia, Real{0});
   }
   // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N
   // - u_P - W . d is negative, W the spin of L_f.

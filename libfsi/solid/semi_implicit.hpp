@@ -79,13 +79,14 @@ struct ElasticTerms {
 /// linear velocity with a kink, if L is one-sided or the mean of both sides. Without `kink` avg L
 /// is linear between the cells.
 ///
-/// The term is explicit, so that kappa is raised to e / 1.5 - mu_rho if it is less. Here mu_rho =
+/// The term is explicit, so that kappa is raised to e / 1.5 - mu_rho if it is less, in the simplex
+/// zone to e - mu_rho. With 1.5 the strain of stiff spheres bursts there. Here mu_rho =
 /// (rho |d|^2 / dt) min(1/8, 1/(2 K)) is the inertia as a viscosity, rho the least density and
 /// K = sum_f g |d|^2 / (2 V) the larger one of both cells. A velocity that differs from all its
-/// neighbours then changes by at most 1.5 of the difference in a step, for any shape of cell. K =
-/// dim on squares and regular simplices, and 10 or more on slivers. If e were bounded instead, its
-/// error at the surface would depend on the step, and with it the way of a body. A raised kappa
-/// makes the first term one of first order in dt; as dt goes to 0 no kappa is raised.
+/// neighbours then changes by at most 1.5, or 1, of the difference in a step, for any shape of
+/// cell. K = dim on squares and regular simplices, and 10 or more on slivers. If e were bounded
+/// instead, its error at the surface would depend on the step, and with it the way of a body. A
+/// raised kappa makes the first term one of first order in dt; as dt goes to 0 no kappa is raised.
 ///
 /// Films. The strain of a cell that is left out at a film is extrapolated and does not answer to
 /// its velocity. The memory of the cells beside it does not contain the slip between both, and
