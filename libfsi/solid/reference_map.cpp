@@ -194,7 +194,8 @@ Vec3 ReferenceMap::face_value(Index f, Index c, bool out, const FlowSnapshot& sn
 Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const {
   // In triangles and tetrahedra grad xi is a least-squares fit, and more of the volume is lost.
   // With the map kinematics a larger nu_J would pull a coarse solid towards a moving lid.
-  const Real part = beside_psi_ && mesh_.simplex(c) ? 0.18 : 0.06;
+  const bool lossy = beside_psi_ && mesh_.simplex(c);
+  const Real by_flow = lossy ? 0.18 : 0.06, by_wave = lossy ? 0.12 : 0.06;
   const Real J = volume_ratio(c), h = cell_size(mesh_, c);
   Vec3 grad_J;
   for (const Index f : mesh_.cell_faces[c]) {
@@ -211,7 +212,7 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
       grad_J -= dot(grad_J, n) * n;
     }
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
-  Vec3 way = courant * grad_J;
+  Vec3 way = (by_flow * courant) * grad_J;
   if (beside_psi_ && snapshot.wave_speed > 0) {
     // B does not depend on J, so no stress resists a change of J. Under a lasting load the normal
     // velocity of the outermost cells would change J without end. In cells with fluid among their
@@ -219,9 +220,9 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
     // map along the surface.
     const Vec3 n = inward_normal(filled_, mesh_, c, extension_.symmetry());
     const Vec3 along = n == Vec3{} ? grad_J : dot(grad_J, n) * n;
-    way += (dt * snapshot.wave_speed / h) * along;
+    way += (by_wave * dt * snapshot.wave_speed / h) * along;
   }
-  return (part * h * h) * dot(gradient_of_map(c), way);
+  return (h * h) * dot(gradient_of_map(c), way);
 }
 
 Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const {

@@ -24,7 +24,7 @@ namespace fsi::solid {
 ///   xi <- xi + nu_J h^2 grad xi . (Co grad J + (c_s dt / h) (grad J)_m),   nu_J = 0.06,
 /// Co the Courant number of the cell. The term in c_s is for the memory alone. In cells with fluid
 /// among their vertex neighbours (grad J)_m is the part along the normal m of the surface, in
-/// others grad J itself. For the memory nu_J is 0.18 in triangles and tetrahedra.
+/// others grad J itself. For the memory nu_J is 0.18 in triangles and tetrahedra, 0.12 with c_s.
 ///
 /// Alternation. In the simplex zone the memory loses the same part gamma of its fourth differences
 /// as psi (`Extension::fourth_difference_filter`). Over the known vertex neighbours k and their

@@ -117,7 +117,7 @@ Vec3 SemiImplicitElasticity::hold_of_film(Real& k, const ElasticTerms& solid,
   constexpr Real firm = 30;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const bool of_P = (*solid.known)[P] >= alpha_known, of_N = (*solid.known)[N] >= alpha_known;
-  if (of_P == of_N) return {};
+  if (of_P == of_N || zone_.has(P) || zone_.has(N)) return {};
   const Index known = of_P ? P : N, left_out = of_P ? N : P;
   const Real part = 2 * solid.fraction[left_out] - 1;
   if (part <= 0) return {};

@@ -91,8 +91,9 @@ struct ElasticTerms {
 /// Films. The strain of a cell that is left out at a film is extrapolated and does not answer to
 /// its velocity. The memory of the cells beside it does not contain the slip between both, and
 /// draws psi back. The solid at the wall would slip along it for ever, and pockets of fluid would
-/// grow under a solid that is pressed to a wall. Without a memory psi answers to the slip. Let k be
-/// a known cell beside it, across a face. Between both acts
+/// grow under a solid that is pressed to a wall. Without a memory psi answers to the slip, and in
+/// the simplex zone psi is not drawn at the wave's rate near walls. Outside the zone, let k be a
+/// known cell beside it, across a face. Between both acts
 ///   e_w g (u_N - u_P - L_k . d),   e_w = 30 (2 alpha - 1) |d| (rho G alpha_f lambda_B)^(1/2),
 /// alpha >= 1/2 that of the cell left out, and kappa is raised by e_w. So this cell moves with the
 /// solid farther in. With 3 in place of 30 a sphere that lodges in a throat slips on; with 100 it
