@@ -89,7 +89,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
     // Beyond the band L is not set.
     if (f < mesh_.n_internal && l > 0 && lambda[P] != 0 && lambda[mesh_.neighbour[f]] != 0) {
       Vec3 flux = damping(k, solid, weights, f, l);
-      if (solid.known) flux += hold_of_film(k, solid, weights, f, l);
+      if (solid.film) flux += hold_of_film(k, solid, weights, f, l);
       flux += (k * solid.dt * weights.g[f]) * change_of_rise(solid, f);
       const Index N = mesh_.neighbour[f];
       force[P] += (1 / mesh_.V[P]) * flux;
@@ -116,9 +116,10 @@ Vec3 SemiImplicitElasticity::hold_of_film(Real& k, const ElasticTerms& solid,
                                           const FaceWeights& weights, Index f, Real l) const {
   constexpr Real firm = 30;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const bool of_P = (*solid.known)[P] >= alpha_known, of_N = (*solid.known)[N] >= alpha_known;
-  if (of_P == of_N || zone_.has(P) || zone_.has(N)) return {};
+  const CellField<Real>& fraction = solid.film->fraction();
+  const bool of_P = fraction[P] >= alpha_known, of_N = fraction[N] >= alpha_known;
   const Index known = of_P ? P : N, left_out = of_P ? N : P;
+  if (of_P == of_N || !solid.film->at_film(left_out) || zone_.has(P) || zone_.has(N)) return {};
   const Real part = 2 * solid.fraction[left_out] - 1;
   if (part <= 0) return {};
   const Real e = firm * part * norm(mesh_.d[f]) * std::sqrt(solid.rho * solid.G * l);

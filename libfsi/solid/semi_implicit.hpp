@@ -8,6 +8,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/solid/simplex_zone.hpp"
+#include "libfsi/solid/wall_film.hpp"
 
 namespace fsi::solid {
 
@@ -42,9 +43,8 @@ struct ElasticTerms {
   /// The normal m in cells at a surface between two viscosities, else zero; null: one viscosity.
   const CellField<Vec3>* normal = nullptr;
   Real rho_least = rho;  ///< the least density of solid and fluid
-  /// With a memory, the fraction without the cells that are left out at films (WallFilm). Null:
-  /// they are not held.
-  const CellField<Real>* known = nullptr;
+  /// With a memory, the rule of films. Null: no cell is held.
+  const WallFilm* film = nullptr;
 };
 
 /// Two terms that keep velocity and strain stable and leave a resolved solution unchanged:

@@ -269,7 +269,7 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
       .one_sided = body.interface_gradient.has_value(),
       .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
       .rho_least = flow.rho_least,
-      .known = body.film && body.remembers() ? &body.film->fraction() : nullptr};
+      .film = body.film && body.remembers() ? &*body.film : nullptr};
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 
