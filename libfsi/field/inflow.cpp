@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi {
 namespace {
@@ -180,16 +181,11 @@ bool Section::solve() {
 
 std::vector<Vec3> inflow_shape(InflowProfile profile, const Patch& patch, const Mesh& mesh,
                                const std::vector<Patch>& free) {
-  std::array<Sum, 4> sums;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    for (int i = 0; i < 3; ++i) sums[i].add(mesh.Sf[f][i]);
-    sums[3].add(norm(mesh.Sf[f]));
-  }
-  const Vec3 area{sums[0].total(), sums[1].total(), sums[2].total()};
+  const auto [area, size] = area_of(patch, mesh);
   require(norm(area) > 0, "patch \"" + patch.name + "\" has no net area to flow through");
   // A plug may come in through a curved patch.
   const Real flat = profile == InflowProfile::parabola ? 0.9 : 0.5;
-  require(norm(area) > flat * sums[3].total(),
+  require(norm(area) > flat * size,
           "the faces of patch \"" + patch.name +
               "\" look different ways, so its flow has no direction; give each opening a name of "
               "its own");

@@ -1,30 +1,18 @@
 #include "libfsi/flow/planes_at.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 namespace fsi::flow {
 namespace {
 
 constexpr Real none = std::numeric_limits<Real>::max();
 constexpr Real rounding = 1e-6;
-
-/// Sum of S, and of |S|, over the patch.
-std::array<Real, 4> sums_of(const Patch& patch, const Mesh& mesh) {
-  std::array<Sum, 4> sums;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)].add(mesh.Sf[f][i]);
-    sums[3].add(norm(mesh.Sf[f]));
-  }
-  std::array<Real, 4> total{};
-  Sum::totals(total, sums);
-  return total;
-}
 
 /// Faces of the mirrors with a corner at the opening, as planes.
 std::vector<geometry::Mirror> faces_at(const Patch& opening, const std::vector<Patch>& mirrors,
@@ -61,12 +49,12 @@ geometry::Mirror first_of(const std::vector<geometry::Mirror>& planes) {
 std::vector<geometry::Mirror> planes_at(const Patch& opening, const std::vector<Patch>& mirrors,
                                         const Mesh& mesh) {
   if (mirrors.empty()) return {};
-  const auto [x, y, z, size] = sums_of(opening, mesh);
+  const PatchArea area = area_of(opening, mesh);
   std::vector<geometry::Mirror> found = faces_at(opening, mirrors, mesh), planes;
   while (true) {
     const geometry::Mirror one = first_of(found);
     if (one.n == Vec3{}) return planes;
-    bool fits = planes.size() < 2 && std::abs(dot(one.n, Vec3{x, y, z})) < rounding * size;
+    bool fits = planes.size() < 2 && std::abs(dot(one.n, area.vector)) < rounding * area.size;
     for (const geometry::Mirror& other : planes)
       fits = fits && std::abs(dot(one.n, other.n)) < rounding;
     if (!fits) return {};
@@ -77,7 +65,7 @@ std::vector<geometry::Mirror> planes_at(const Patch& opening, const std::vector<
 
 Real whole_diameter(const Patch& opening, const std::vector<Patch>& mirrors, const Mesh& mesh) {
   const auto planes = static_cast<int>(planes_at(opening, mirrors, mesh).size());
-  const Real A = std::ldexp(sums_of(opening, mesh)[3], planes);
+  const Real A = std::ldexp(area_of(opening, mesh).size, planes);
   return mesh.dim == 2 ? A : std::sqrt(4 * A / std::numbers::pi);
 }
 

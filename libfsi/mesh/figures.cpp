@@ -83,6 +83,17 @@ Real width_across(const Mesh& mesh, int axis) {
   return most;
 }
 
+PatchArea area_of(const Patch& patch, const Mesh& mesh) {
+  std::array<Sum, 4> sums;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)].add(mesh.Sf[f][i]);
+    sums[3].add(norm(mesh.Sf[f]));
+  }
+  std::array<Real, 4> total{};
+  Sum::totals(total, sums);
+  return {{total[0], total[1], total[2]}, total[3]};
+}
+
 std::string text_of(const Box& box) {
   return print("from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)", box.low.x, box.low.y, box.low.z,
                box.high.x, box.high.y, box.high.z);

@@ -30,6 +30,15 @@ Box extent(const Mesh& mesh);
 /// Collective. The largest extent of the mesh along the axes other than x (0), y (1) or z (2).
 Real width_across(const Mesh& mesh, int axis);
 
+/// The area of a patch.
+struct PatchArea {
+  Vec3 vector;    ///< sum of the area vectors of its faces
+  Real size = 0;  ///< sum of their norms
+};
+
+/// Collective. Over all ranks.
+PatchArea area_of(const Patch& patch, const Mesh& mesh);
+
 /// "from (x, y, z) to (x, y, z)".
 std::string text_of(const Box& box);
 

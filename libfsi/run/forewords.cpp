@@ -35,12 +35,6 @@ Flow at(const FixedVelocity& fixed, const Patch& patch, Real t, Real area, const
   return {std::abs(through.total()) / area, global_max(top)};
 }
 
-Real area_of(const Patch& patch, const Mesh& mesh) {
-  Sum sum;
-  for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
-  return sum.total();
-}
-
 }  // namespace
 
 PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
@@ -56,7 +50,7 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
     const auto* rate = std::get_if<FlowRate>(&found->second);
     const auto* fixed = std::get_if<FixedVelocity>(&found->second);
     if (rate == nullptr && fixed == nullptr) continue;
-    const Real A = area_of(patch, mesh);
+    const Real A = area_of(patch, mesh).size;
     const Real D = flow::whole_diameter(patch, mirrors, mesh);
     const int times = rate != nullptr ? 4000 : 100;
     for (int i = 0; i <= 2 * times; ++i) {

@@ -41,6 +41,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
       checkpoints_(setup.output.directory, solver.mesh()),
       energy_(solver),
       watch_(watch_of(solver)),
+      diameters_(whole_diameters(solver)),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval),
       checkpoint_(setup.output.checkpoint_interval) {
@@ -258,7 +259,7 @@ std::vector<Row> Output::rows(const Limit& limit, Real dt, Real wall_per_step) {
     all.back().entries = records_[i].row(solver_, body);
     elastic_energy += records_[i].soundness().elastic_energy;
   }
-  all[0].entries = flow_row(solver_, elastic_energy, limit, dt, wall_per_step);
+  all[0].entries = flow_row(solver_, diameters_, elastic_energy, limit, dt, wall_per_step);
   all[0].entries.push_back({"work", energy_.work()});
   all[0].entries.push_back({"energy_made", energy_.part_made(), Course::step});
   watch_.flow(all[0].entries, energy_, energy_.started() ? dt : 0, s.t);

@@ -98,6 +98,7 @@ class Output {
   io::Checkpoint checkpoints_;
   EnergyBalance energy_;
   Watch watch_;
+  std::vector<Real> diameters_;       // of the patches
   std::vector<SolidRecord> records_;  // of the bodies
   Samples samples_;
   std::string samples_text_;  // the content of samples_ for a checkpoint

@@ -13,6 +13,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/planes_at.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/operators/pieces.hpp"
 #include "libfsi/run/taylor.hpp"
 #include "libfsi/solver/energy.hpp"
@@ -58,18 +59,12 @@ Real mean_pressure(const Solver& solver, const Patch& patch) {
   return p.total() / area.total();
 }
 
-Real area(const Patch& patch, const Mesh& mesh) {
-  Sum sum;
-  for (Index f = patch.begin; f < patch.end; ++f) sum.add(norm(mesh.Sf[f]));
-  return sum.total();
-}
-
 Real mean_pressure_beside(const Solver& solver, const Patch& patch) {
   const Mesh& mesh = solver.mesh();
   Sum p;
   for (Index f = patch.begin; f < patch.end; ++f)
     p.add(norm(mesh.Sf[f]) * solver.state().p[mesh.owner[f]]);
-  return p.total() / area(patch, mesh);
+  return p.total() / area_of(patch, mesh).size;
 }
 
 Real pressure_drop(const Solver& solver) {
@@ -84,11 +79,9 @@ Real pressure_drop(const Solver& solver) {
 }
 
 /// Columns of each patch that fluid goes through, and the largest Reynolds number there.
-void add_openings(std::vector<Entry>& row, const Solver& solver) {
+void add_openings(std::vector<Entry>& row, const Solver& solver,
+                  const std::vector<Real>& diameters) {
   const Mesh& mesh = solver.mesh();
-  std::vector<Patch> mirrors;
-  for (std::size_t i = 0; i < mesh.patches.size(); ++i)
-    if (lets_slip(solver.conditions()[i])) mirrors.push_back(mesh.patches[i]);
   Real velocity_length = 0;
   bool any = false;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
@@ -97,13 +90,12 @@ void add_openings(std::vector<Entry>& row, const Solver& solver) {
     const bool open = fixes_pressure(condition);
     if (!open && !prescribes_flow(condition)) continue;
     any = true;
-    const Real Q = flow_rate(solver, patch), A = area(patch, mesh);
+    const Real Q = flow_rate(solver, patch), A = area_of(patch, mesh).size;
     row.push_back({"flow_rate_" + patch.name, Q});
     row.push_back({"mean_pressure_" + patch.name,
                    open ? solver.opening_pressure(patch.name) : mean_pressure_beside(solver, patch),
                    Course::pressure});
-    velocity_length =
-        std::max(velocity_length, std::abs(Q) / A * flow::whole_diameter(patch, mirrors, mesh));
+    velocity_length = std::max(velocity_length, std::abs(Q) / A * diameters[i]);
   }
   if (any)
     row.push_back({"reynolds", solver.physics().rho * velocity_length / solver.physics().mu_f});
@@ -219,8 +211,19 @@ Real shape_energy(const Body& body) {
   return body.law.energy(body.G, B, body.alpha, body.mesh);
 }
 
-std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& limit, Real dt,
-                            Real wall_per_step) {
+std::vector<Real> whole_diameters(const Solver& solver) {
+  const Mesh& mesh = solver.mesh();
+  std::vector<Patch> mirrors;
+  for (std::size_t i = 0; i < mesh.patches.size(); ++i)
+    if (lets_slip(solver.conditions()[i])) mirrors.push_back(mesh.patches[i]);
+  std::vector<Real> diameters;
+  for (const Patch& patch : mesh.patches)
+    diameters.push_back(flow::whole_diameter(patch, mirrors, mesh));
+  return diameters;
+}
+
+std::vector<Entry> flow_row(Solver& solver, const std::vector<Real>& diameters, Real elastic_energy,
+                            const Limit& limit, Real dt, Real wall_per_step) {
   const Mesh& mesh = solver.mesh();
   const Real mean_velocity = solver.mean_velocity();
   std::vector<Entry> row{
@@ -242,7 +245,7 @@ std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& li
       {"pressure_iterations", static_cast<Real>(solver.report().pressure_iterations), Course::step},
       {"wall_per_step", wall_per_step, Course::step}};
   if (solver.bodies().size() > 1) row.push_back({"overlap", solver.overlap(), Course::step});
-  add_openings(row, solver);
+  add_openings(row, solver, diameters);
   return row;
 }
 

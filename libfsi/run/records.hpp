@@ -18,8 +18,12 @@ std::vector<std::string> names(const std::vector<Entry>& row);
 /// The numbers.
 std::vector<Real> values(const std::vector<Entry>& row);
 
-/// Collective. A row of flow.csv, for the flow after a step of length dt. elastic_energy: of all
-/// solids.
+/// Collective. [patches] D = (4 A / pi)^(1/2), in 2-D the width, of each patch with its images in
+/// the planes of symmetry that meet it.
+std::vector<Real> whole_diameters(const Solver& solver);
+
+/// Collective. A row of flow.csv, for the flow after a step of length dt. diameters: of
+/// `whole_diameters`; elastic_energy: of all solids.
 /// - pressure_drop: between the patches inlet and outlet, S times the period in a periodic channel.
 /// - pressure_span: max p - min p of the cells without solid.
 /// - dissipation: that of `dissipation`.
@@ -32,10 +36,9 @@ std::vector<Real> values(const std::vector<Entry>& row);
 /// - mean_pressure_NAME: of the same patches. At an opening it is the given pressure with the part
 /// of its load, in the middle of the step. If the flow is prescribed, it is that of the cells at
 /// the patch.
-/// - reynolds: rho U D / mu_f with the mean velocity and D = (4 A / pi)^(1/2) (in 2-D the width) of
-/// the patch where it is largest.
-std::vector<Entry> flow_row(Solver& solver, Real elastic_energy, const Limit& limit, Real dt,
-                            Real wall_per_step);
+/// - reynolds: rho U D / mu_f with the mean velocity and D of the patch where it is largest.
+std::vector<Entry> flow_row(Solver& solver, const std::vector<Real>& diameters, Real elastic_energy,
+                            const Limit& limit, Real dt, Real wall_per_step);
 
 /// Collective. The integral of 2 mu D : D, mu by the fractions of the cell.
 Real dissipation(Solver& solver);

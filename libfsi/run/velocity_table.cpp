@@ -19,15 +19,8 @@ std::array<Real, 3> key_of(const Vec3& x) { return {x.x, x.y, x.z}; }
 /// Collective. The normal of a patch in one plane; zero if it is curved.
 Vec3 flat_normal(const Mesh& mesh, const Patch& patch) {
   constexpr Real flat = 0.999;  // of the area, as seen along the normal
-  std::array<Sum, 4> sums;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)].add(mesh.Sf[f][i]);
-    sums[3].add(norm(mesh.Sf[f]));
-  }
-  std::array<Real, 4> total{};
-  Sum::totals(total, sums);
-  const Vec3 S{total[0], total[1], total[2]};
-  return norm(S) > flat * total[3] ? S / norm(S) : Vec3{};
+  const auto [S, size] = area_of(patch, mesh);
+  return norm(S) > flat * size ? S / norm(S) : Vec3{};
 }
 
 }  // namespace

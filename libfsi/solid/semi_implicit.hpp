@@ -96,8 +96,8 @@ struct ElasticTerms {
 /// known cell beside it, across a face. Between both acts
 ///   e_w g (u_N - u_P - L_k . d),   e_w = 30 (2 alpha - 1) |d| (rho G alpha_f lambda_B)^(1/2),
 /// alpha >= 1/2 that of the cell left out, and kappa is raised by e_w. So this cell moves with the
-/// solid farther in. With 3 in place of 30 a sphere that lodges in a throat slips on; with 100 it
-/// comes off its place no later.
+/// solid farther in. With 3 in place of 30 a sphere that lodges in a throat slips on, and with 100
+/// another one comes off its place earlier.
 ///
 /// In the simplex zone with a one-sided L, a flux of e that would add energy to the strain is set
 /// to 0. Its product with u_N - u_P less the spin of avg L times d is negative. Such fluxes occur
