@@ -18,10 +18,13 @@ void add_boundary(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellF
   }
 }
 
-/// Sw(r) step with r = 2 slope / rise - 1 [Sweby84].
-Real limited_part(Real slope, Real rise, Real step) {
-  const Real r = rise != 0 ? 2 * slope / rise - 1 : 1;
-  return std::clamp(2 * r, Real{0}, Real{1}) * step;
+/// Sw(r) step with r = 2 slope . rise / |rise|^2 - 1 [Sweby84], and step shortened to |rise|. With
+/// a longer one, which a skewed face may have, rounding would decide where the rise vanishes.
+Vec3 limited_step(const Vec3& step, const Vec3& slope, const Vec3& rise) {
+  const Real r2 = norm2(rise), s2 = norm2(step);
+  const Real r = 2 * dot(slope, rise) / r2 - 1;
+  if (!(r > 0)) return {};  // also without a rise
+  return (std::min(2 * r, Real{1}) * (s2 > r2 ? std::sqrt(r2 / s2) : 1)) * step;
 }
 
 }  // namespace
@@ -83,8 +86,7 @@ void convection_upwind(CellField<Vec3>& conv, const FaceField<Real>& phi, const 
       const Vec3 slope = dot(L_U, forward ? d : -d);
       Vec3 whole = 0.5 * rise;
       if (i >= 0) whole += dot(L_f[i], weights.from_midpoint(f, mesh));
-      step = {limited_part(slope.x, rise.x, whole.x), limited_part(slope.y, rise.y, whole.y),
-              limited_part(slope.z, rise.z, whole.z)};
+      step = limited_step(whole, slope, rise);
     }
     const Vec3 u_f = u[U] + step;
     conv[P] += phi[f] * (u_f - u[P]);

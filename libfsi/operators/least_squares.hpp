@@ -91,9 +91,9 @@ class QuadraticFit {
   /// Adds the gradient L_k at r.
   void add_gradient(const Vec3& r, const Tensor& L);
   /// L, or nothing if the fit amplifies errors too much. Independent errors e |r_k| / size of the
-  /// u_k and e / size of the L_k may cause an error of L of at most sqrt(20) e / size. With five
-  /// values for five unknowns 20 can become 40, and a viscous flux with such an L grows from step
-  /// to step. Call it once.
+  /// u_k and e / size of the L_k may cause an error of L of at most sqrt(20.3) e / size. With
+  /// five values for five unknowns 20 can become 40, and a viscous flux with such an L grows from
+  /// step to step. Call it once.
   std::optional<Tensor> gradient();
 
  private:

@@ -14,10 +14,8 @@
 namespace fsi::solid {
 namespace {
 
-Real largest(const SymTensor& t) {
-  return std::max({std::abs(t.xx), std::abs(t.xy), std::abs(t.xz), std::abs(t.yy), std::abs(t.yz),
-                   std::abs(t.zz)});
-}
+/// (t : t / 2)^1/2, in a simple shear its rate.
+Real size(const SymTensor& t) { return std::sqrt(contract(t, t) / 2); }
 
 /// psi_delta, which corrects a face value for the skewness delta of its face. d leads from the
 /// upwind cell to the other, and g is the mean of both cells' gradients:
@@ -115,7 +113,7 @@ Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>&
       sum += (P == c ? snapshot.phi[f] : -snapshot.phi[f]) * (face - psi[c]);
     }
     const SymTensor strain = log_rate(L_[i], psi[c]);
-    if (extension_.inner(c)) fastest = std::max(fastest, largest(strain));
+    if (extension_.inner(c)) fastest = std::max(fastest, size(strain));
     rate_.push_back(strain - (1 / mesh_.V[c]) * sum);
   }
   for (const Index c : extension_.inside()) grad[c] = {};

@@ -16,9 +16,10 @@
 namespace fsi::solid {
 namespace {
 
-Real largest_rate(const Tensor& L) {
-  return std::max({2 * std::abs(L.xx), 2 * std::abs(L.yy), 2 * std::abs(L.zz),
-                   std::abs(L.xy + L.yx), std::abs(L.xz + L.zx), std::abs(L.yz + L.zy)});
+/// (2 D : D)^1/2, in a simple shear its rate.
+Real shear_rate(const Tensor& L) {
+  const Real xy = L.xy + L.yx, xz = L.xz + L.zx, yz = L.yz + L.zy;
+  return std::sqrt(2 * (L.xx * L.xx + L.yy * L.yy + L.zz * L.zz) + xy * xy + xz * xz + yz * yz);
 }
 
 /// Collective. Which patches of the mesh have such faces.
@@ -283,7 +284,7 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
 Strain ReferenceMap::transport(const CellField<Real>& /*alpha*/, const FlowSnapshot& snapshot,
                                Real dt, CellField<SymGradient>& /*grad*/) {
   Real fastest = 0;
-  for (const Index c : known_.core()) fastest = std::max(fastest, largest_rate(snapshot.L[c]));
+  for (const Index c : known_.core()) fastest = std::max(fastest, shear_rate(snapshot.L[c]));
   return in_parts(
       dt, [&] { return fastest; }, [&](Real part) { return advance(snapshot, part), fastest; });
 }

@@ -104,9 +104,10 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
 Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) const {
   constexpr Real whole = 0.3, none = 0.5;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const Vec3 u = 0.5 * (solid.u[P] + solid.u[N]);
-  const Real courant =
-      solid.dt * (std::abs(u.x) + std::abs(u.y) + std::abs(u.z)) / norm(mesh_.d[f]);
+  const Vec3 u = 0.5 * (solid.u[P] + solid.u[N]), d = mesh_.d[f];
+  const Real along = dot(u, d) / norm(d);
+  const Real across = norm(u - (along / norm(d)) * d);
+  const Real courant = solid.dt * (std::abs(along) + across) / norm(d);
   const Real part = std::clamp((none - courant) / (none - whole), Real{0}, Real{1});
   return part * dot(solid.L[N] + -1.0 * solid.L[P], u);
 }

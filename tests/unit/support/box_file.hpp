@@ -4,10 +4,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@ struct BoxFile {
   bool simplex = false;
   std::vector<std::string> periodic{};
   std::function<Vec3(const Vec3&)> moved = [](const Vec3& x) { return x; };
+  bool shuffled = false;  ///< nodes, elements, and the nodes of triangles and tets in another order
 };
 
 namespace box_file {
@@ -113,6 +117,18 @@ inline std::vector<Element> space_elements(const BoxFile& box) {
   return all;
 }
 
+inline void shuffle(std::vector<Element>& all, std::mt19937& random) {
+  std::ranges::shuffle(all, random);
+  for (Element& e : all) {
+    if (e.nodes.size() == 3) std::ranges::rotate(e.nodes, e.nodes.begin() + random() % 3);
+    // An even permutation keeps the volume positive.
+    if (e.type == 4)
+      for (auto i = random() % 12; i > 0; --i)
+        std::rotate(e.nodes.begin() + i % 2, e.nodes.begin() + i % 2 + 1,
+                    e.nodes.begin() + i % 2 + 3);
+  }
+}
+
 inline void write(const BoxFile& box, const std::string& path) {
   const bool plane = box.n[2] == 0;
   std::ofstream file(path);
@@ -124,22 +140,28 @@ inline void write(const BoxFile& box, const std::string& path) {
     file << (plane ? 2 : 3) - (i < 6 ? 1 : 0) << " " << i + 1 << " \"" << names[i] << "\"\n";
   }
   file << "$EndPhysicalNames\n$Nodes\n" << (box.n[0] + 1) * (box.n[1] + 1) * (box.n[2] + 1) << "\n";
+  const Index n_nodes = (box.n[0] + 1) * (box.n[1] + 1) * (box.n[2] + 1);
+  std::vector<Index> names_of(static_cast<std::size_t>(n_nodes));
+  std::iota(names_of.begin(), names_of.end(), 1);
+  std::mt19937 random(7);
+  if (box.shuffled) std::ranges::shuffle(names_of, random);
   Index number = 0;
   for (Index k = 0; k <= box.n[2]; ++k) {
     for (Index j = 0; j <= box.n[1]; ++j) {
       for (Index i = 0; i <= box.n[0]; ++i) {
         const Vec3 x = box.moved({box.length.x * i / box.n[0], box.length.y * j / box.n[1],
                                   plane ? 0 : box.length.z * k / box.n[2]});
-        file << ++number << " " << x.x << " " << x.y << " " << x.z << "\n";
+        file << names_of[number++] << " " << x.x << " " << x.y << " " << x.z << "\n";
       }
     }
   }
-  const std::vector<Element> all = plane ? plane_elements(box) : space_elements(box);
+  std::vector<Element> all = plane ? plane_elements(box) : space_elements(box);
+  if (box.shuffled) shuffle(all, random);
   file << "$EndNodes\n$Elements\n" << all.size() << "\n";
   number = 0;
   for (const Element& e : all) {
     file << ++number << " " << e.type << " 2 " << e.physical << " " << e.physical;
-    for (const Index node : e.nodes) file << " " << node + 1;
+    for (const Index node : e.nodes) file << " " << names_of[node];
     file << "\n";
   }
   file << "$EndElements\n";
