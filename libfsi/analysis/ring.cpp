@@ -107,9 +107,12 @@ Ring ring(const Surface& surface, const Vec3& centroid, const RingFrame& frame) 
       reach[k] = std::max({reach[k], a.rho, b.rho});
       reach[n_azimuths + k] = std::max({reach[n_azimuths + k], -a.rho, -b.rho});
       if (k % quarter != 0) return;
-      const Real half = std::hypot(a.rho - b.rho, a.xi - b.xi) / 2;
-      sections[k / quarter].add(a.rho, a.xi, half);
-      sections[k / quarter].add(b.rho, b.xi, half);
+      // three points of Gauss, exact for the moments of a segment, whatever its length
+      const Real length = std::hypot(a.rho - b.rho, a.xi - b.xi), g = std::sqrt(0.15);
+      for (const auto& [t, w] :
+           {std::pair{0.5 - g, 5 / 18.0}, {0.5, 8 / 18.0}, {0.5 + g, 5 / 18.0}})
+        sections[k / quarter].add(a.rho + t * (b.rho - a.rho), a.xi + t * (b.xi - a.xi),
+                                  w * length);
     });
   }
   largest_of_ranks(reach);

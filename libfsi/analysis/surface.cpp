@@ -55,8 +55,9 @@ struct Stencil {
 /// alpha at the corners of the cells that may hold a part of the surface.
 class Corners {
  public:
-  Corners(const CellField<Real>& alpha, const Mesh& mesh)
-      : mesh_(mesh), slot_(mesh.points.size(), outside) {
+  Corners(const CellField<Real>& alpha, const Mesh& mesh,
+          const std::vector<geometry::Mirror>& mirrors)
+      : mesh_(mesh), mirrors_(mirrors), slot_(mesh.points.size(), outside) {
     find_cells(alpha);
     for (const Index c : cells) {
       for (const Index p : mesh.cell_points[c]) {
@@ -95,7 +96,8 @@ class Corners {
     for (Index c = 0; c < mesh_.n_cells; ++c) {
       for (const Index p : mesh_.cell_points[c]) {
         const Index slot = slot_[mesh_.vertex[p]];
-        if (slot >= 0) stencil[slot].add(mesh_.C[c] - mesh_.points[p], alpha[c]);
+        if (slot >= 0)
+          add_images(stencil[slot], mesh_.points[p], mesh_.C[c] - mesh_.points[p], alpha[c], 0);
       }
     }
     value_.resize(n_slots_);
@@ -103,7 +105,20 @@ class Corners {
                            [this](const Stencil& s) { return s.value(mesh_.dim); });
   }
 
+  /// The cell and its images in the planes of symmetry that the vertex lies in.
+  void add_images(Stencil& stencil, const Vec3& x, const Vec3& arm, Real value,
+                  std::size_t first) const {
+    constexpr Real in_plane = 1e-3;
+    for (std::size_t i = first; i < mirrors_.size(); ++i)
+      if (std::abs(dot(x - mirrors_[i].x, mirrors_[i].n)) < in_plane * norm(arm)) {
+        add_images(stencil, x, arm, value, i + 1);
+        return add_images(stencil, x, mirrors_[i].of_direction(arm), value, i + 1);
+      }
+    stencil.add(arm, value);
+  }
+
   const Mesh& mesh_;
+  const std::vector<geometry::Mirror>& mirrors_;
   static constexpr Index outside = -1, touched = -2;  // below 0: no value is wanted
   std::vector<Index> slot_;                           // [vertices]
   Index n_slots_ = 0;
@@ -181,9 +196,10 @@ void add_cell(Surface& surface, const Corners& corners, const Mesh& mesh, Index 
 
 }  // namespace
 
-Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about) {
+Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about,
+                   const std::vector<geometry::Mirror>& mirrors) {
   Surface surface{mesh.dim, {}};
-  const Corners corners(alpha, mesh);
+  const Corners corners(alpha, mesh, mirrors);
   for (const Index c : corners.cells) {
     const Vec3 shift = mesh.translation[nearest_image(mesh, mesh.C[c], about)];
     add_cell(surface, corners, mesh, c, shift);

@@ -32,9 +32,11 @@ struct Surface {
 /// corners, in 3-D about that of their faces too, and alpha is linear on each. So the parts fit
 /// without gaps, across cells and ranks. A cell away from the surface costs one loop over its
 /// neighbours. Every part is placed at its image nearest to `about` (a point in the solid), so a
-/// solid on a periodic seam is in one piece. The interpolation rounds the surface: an error of
-/// second order, 0.1 cells inward at a radius of three cells. alpha: owned and halo.
-Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about);
+/// solid on a periodic seam is in one piece. mirrors: the planes of symmetry that cut the solid; at
+/// a corner on one, the images of the cells count too. The interpolation rounds the surface: an
+/// error of second order, 0.1 cells inward at a radius of three cells. alpha: owned and halo.
+Surface isosurface(const CellField<Real>& alpha, const Mesh& mesh, const Vec3& about,
+                   const std::vector<geometry::Mirror>& mirrors = {});
 
 /// The surface and its images in planes of symmetry, one after the other: that of the whole solid
 /// where the mesh holds a part of it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "libfsi/core/parallel.hpp"
@@ -11,16 +10,20 @@
 namespace fsi::flow {
 namespace {
 
-constexpr Real none = std::numeric_limits<Real>::max();
 constexpr Real rounding = 1e-6;
 
 /// Faces of the mirrors with a corner at the opening, as planes.
 std::vector<geometry::Mirror> faces_at(const Patch& opening, const std::vector<Patch>& mirrors,
                                        const Mesh& mesh) {
-  std::vector<char> at_opening(mesh.points.size(), 0);
+  // A face of the mirror may be on another rank than the faces of the opening that it meets.
+  std::vector<Real> mine;
   for (Index f = opening.begin; f < opening.end; ++f)
-    for (const Index p : mesh.face_points[f]) at_opening[p] = 1;
-  const auto meets = [&](Index p) { return at_opening[p] != 0; };
+    for (const Index p : mesh.face_points[f]) mine.push_back(static_cast<Real>(mesh.point_id[p]));
+  std::vector<Real> at_opening = gathered(mine);
+  std::ranges::sort(at_opening);
+  const auto meets = [&](Index p) {
+    return std::ranges::binary_search(at_opening, static_cast<Real>(mesh.point_id[p]));
+  };
   std::vector<geometry::Mirror> found;
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f)
@@ -32,15 +35,17 @@ std::vector<geometry::Mirror> faces_at(const Patch& opening, const std::vector<P
 /// Collective. One of the planes, the same on all ranks; its normal is zero where there is none.
 geometry::Mirror first_of(const std::vector<geometry::Mirror>& planes) {
   const auto order = [](const Vec3& n) { return n.x + n.y / 3 + n.z / 7; };
-  Real largest = -none;
-  for (const geometry::Mirror& plane : planes) largest = std::max(largest, order(plane.n));
-  largest = global_max(largest);
-  if (largest == -none) return {};
-  geometry::Mirror one{{-none, -none, -none}, {-none, -none, -none}};
+  const geometry::Mirror* first = nullptr;
   for (const geometry::Mirror& plane : planes)
-    for (int i = 0; i < 3 && order(plane.n) >= largest - rounding; ++i)
-      one.n[i] = std::max(one.n[i], plane.n[i]), one.x[i] = std::max(one.x[i], plane.x[i]);
-  for (int i = 0; i < 3; ++i) one.n[i] = global_max(one.n[i]), one.x[i] = global_max(one.x[i]);
+    if (first == nullptr || order(plane.n) > order(first->n)) first = &plane;
+  std::vector<Real> mine;
+  if (first != nullptr)
+    mine = {first->x.x, first->x.y, first->x.z, first->n.x, first->n.y, first->n.z};
+  const std::vector<Real> all = gathered(mine);
+  geometry::Mirror one{};
+  for (auto v = all.begin(); v != all.end(); v += 6)
+    if (const Vec3 n{v[3], v[4], v[5]}; one.n == Vec3{} || order(n) > order(one.n) + rounding)
+      one = {{v[0], v[1], v[2]}, n};
   return one;
 }
 

@@ -255,8 +255,8 @@ std::vector<Entry> SolidRecord::row(const Solver& solver, const Body& body) {
   const Real ahead = solver.state().t - body.t;
   const analysis::Motion m = analysis::motion(tracker_, body.alpha, solver.state().u, mesh, ahead);
   started_ = tracker_.started ? 1 : 0;
-  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home);
   const std::vector<geometry::Mirror>& mirrors = body.filled.cut_by.planes;
+  const analysis::Surface surface = analysis::isosurface(body.alpha, mesh, tracker_.home, mirrors);
   const analysis::Surface whole = analysis::with_images(surface, mirrors);
   Vec3 middle = tracker_.home;  // of the whole solid
   for (const geometry::Mirror& mirror : mirrors) middle = mirror.foot(middle);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "libfsi/analysis/orientation.hpp"
+#include "libfsi/analysis/surface.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "libfsi/vof/fill.hpp"
@@ -40,6 +41,25 @@ TEST(Ring, FrameTurnsWithTheAxis) {
   Vec3 zeta{1, 0, 0};
   for (const Real t : {0.0, 0.1, 0.2}) zeta = ring_frame({-std::sin(t), 0, std::cos(t)}, zeta).zeta;
   EXPECT_NEAR(norm(zeta - Vec3{std::cos(0.2), 0, std::sin(0.2)}), 0, 1e-14);
+}
+
+// The same surface with each triangle divided in two gives the same sections.
+TEST(Ring, DoesNotDependOnHowTheSurfaceIsDivided) {
+  const Mesh mesh = test::read_box({.n = {12, 12, 12}});
+  CellField<Real> alpha(mesh);
+  const Vec3 centre{0.5, 0.55, 0.5}, axis = Vec3{0.3, 1, 0.2} / norm(Vec3{0.3, 1, 0.2});
+  vof::fill(alpha, mesh, shapes::translate(shapes::align(shapes::torus(0.26, 0.12), axis), centre));
+  const Surface whole = isosurface(alpha, mesh, centre);
+  Surface halves{3, {}};
+  for (Index k = 0; k < whole.size(); ++k) {
+    const Vec3* x = whole.facet(k);
+    const Vec3 on_edge = 0.3 * x[0] + 0.7 * x[1];
+    halves.points.insert(halves.points.end(), {x[0], on_edge, x[2], on_edge, x[1], x[2]});
+  }
+  const Ring one = ring(whole, centre, ring_frame(axis)),
+             two = ring(halves, centre, ring_frame(axis));
+  EXPECT_NEAR(one.bending_meridian, two.bending_meridian, 1e-9);
+  EXPECT_NEAR(one.forward.aspect(), two.forward.aspect(), 1e-9);
 }
 
 TEST(Ring, UndeformedTorus) {
@@ -113,7 +133,7 @@ TEST(Ring, OnAPlaneOfSymmetry) {
   EXPECT_NEAR(std::abs(filled.cut_by.planes[0].n.z), 1, 1e-12);
   EXPECT_NEAR(filled.cut_by.planes[0].x.z, 0, 1e-12);
   const Vec3 of_half{0.5, 0.5, 0.2}, centre = filled.cut_by.planes[0].foot(of_half);
-  const Surface half = isosurface(alpha, mesh, of_half),
+  const Surface half = isosurface(alpha, mesh, of_half, filled.cut_by.planes),
                 s = with_images(half, filled.cut_by.planes);
   EXPECT_NEAR(area(s), 2 * area(half), 1e-12);
   // the surface lies 0.1 cells inside at a radius of three
@@ -130,6 +150,20 @@ TEST(Ring, OnAPlaneOfSymmetry) {
   EXPECT_NEAR(r.outer.aspect(), 1, 1e-2);
   EXPECT_NEAR(r.inner.aspect(), 1, 1e-2);
   EXPECT_NEAR(r.bending_prime, 0, 1e-6);
+}
+
+// On tetrahedra the centres of the cells at a corner on the plane lie aside of it, too.
+TEST(Ring, OfHalfATorusOnTetrahedra) {
+  const Mesh mesh = test::read_box({.n = {16, 16, 8}, .length = {1, 1, 0.5}, .simplex = true});
+  CellField<Real> alpha(mesh);
+  const vof::Filled filled = vof::fill(
+      alpha, mesh,
+      shapes::translate(shapes::rotate(shapes::torus(0.3, 0.12), {0, 0, 1}, pi / 4), {0.5, 0.5, 0}),
+      {mesh.patch("back")}, {1e-4, 0, 4});
+  const std::vector<geometry::Mirror>& planes = filled.cut_by.planes;
+  const Vec3 of_half{0.5, 0.5, 0.2}, centre = planes[0].foot(of_half);
+  const Surface s = with_images(isosurface(alpha, mesh, of_half, planes), planes);
+  EXPECT_NEAR(ring(s, centre, ring_frame(orientation(s, centre).n)).bending_meridian, 0, 1);
 }
 
 TEST(Ring, NothingWithoutSurface) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/unit/support/box_file.hpp"
 
@@ -29,6 +30,35 @@ TEST(PlanesAt, AreThoseThatMeetTheOpening) {
     EXPECT_TRUE(flow::planes_at(left, {bottom, top}, mesh).empty());
     EXPECT_TRUE(flow::planes_at(left, {right}, mesh).empty());
   }
+}
+
+// A quarter of a vessel, turned about its axis.
+TEST(PlanesAt, DoNotDependOnTheTurnOfTheMesh) {
+  for (const Real tangent : {0.0, 0.3, -0.4, 1.0}) {
+    const Real c = 1 / std::hypot(1, tangent), s = tangent * c;
+    const auto turned = [=](const Vec3& x) {
+      return Vec3{x.x, c * x.y - s * x.z, s * x.y + c * x.z};
+    };
+    const Mesh mesh = test::read_box({.n = {3, 4, 4}, .length = {3, 1, 2}, .moved = turned});
+    const std::vector<Patch> planes{mesh.patch("bottom"), mesh.patch("back")};
+    const Patch& left = mesh.patch("left");
+    EXPECT_EQ(flow::planes_at(left, planes, mesh).size(), 2U) << tangent;
+    EXPECT_NEAR(flow::whole_diameter(left, planes, mesh), std::sqrt(32 / std::numbers::pi), 1e-9)
+        << tangent;
+  }
+}
+
+// In two dimensions opening and plane have one corner in common, whose cells may be on two ranks.
+TEST(PlanesAt, DoNotDependOnTheRanks) {
+  for (Index nx = 3; nx < 14; ++nx)
+    for (Index ny = 3; ny < 14; ++ny) {
+      const Vec3 length{static_cast<Real>(nx), static_cast<Real>(ny), 0};
+      const Mesh mesh = test::read_box({.n = {nx, ny, 0}, .length = length, .simplex = true});
+      for (const char* opening : {"left", "right"})
+        for (const char* plane : {"bottom", "top"})
+          EXPECT_EQ(flow::planes_at(mesh.patch(opening), {mesh.patch(plane)}, mesh).size(), 1U)
+              << nx << ' ' << ny << ' ' << opening << ' ' << plane;
+    }
 }
 
 }  // namespace
