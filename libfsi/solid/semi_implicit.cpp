@@ -89,7 +89,6 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
     // Beyond the band L is not set.
     if (f < mesh_.n_internal && l > 0 && lambda[P] != 0 && lambda[mesh_.neighbour[f]] != 0) {
       Vec3 flux = damping(k, solid, weights, f, l);
-      if (solid.film) flux += hold_of_film(k, solid, weights, f, l);
       flux += (k * solid.dt * weights.g[f]) * change_of_rise(solid, f);
       const Index N = mesh_.neighbour[f];
       force[P] += (1 / mesh_.V[P]) * flux;
@@ -110,22 +109,6 @@ Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) 
   const Real courant = solid.dt * (std::abs(along) + across) / norm(d);
   const Real part = std::clamp((none - courant) / (none - whole), Real{0}, Real{1});
   return part * dot(solid.L[N] + -1.0 * solid.L[P], u);
-}
-
-// e_w g (u_N - u_P - L_k . d) between a known cell k and one that is left out at a film
-Vec3 SemiImplicitElasticity::hold_of_film(Real& k, const ElasticTerms& solid,
-                                          const FaceWeights& weights, Index f, Real l) const {
-  constexpr Real firm = 30;
-  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const CellField<Real>& fraction = solid.film->fraction();
-  const bool of_P = fraction[P] >= alpha_known, of_N = fraction[N] >= alpha_known;
-  const Index known = of_P ? P : N, left_out = of_P ? N : P;
-  if (of_P == of_N || !solid.film->at_film(left_out) || zone_.has(P) || zone_.has(N)) return {};
-  const Real part = 2 * solid.fraction[left_out] - 1;
-  if (part <= 0) return {};
-  const Real e = firm * part * norm(mesh_.d[f]) * std::sqrt(solid.rho * solid.G * l);
-  k += e;
-  return e * weights.g[f] * (solid.u[N] - solid.u[P] - dot(solid.L[known], mesh_.d[f]));
 }
 
 Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights,

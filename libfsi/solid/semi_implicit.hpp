@@ -8,7 +8,6 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/solid/simplex_zone.hpp"
-#include "libfsi/solid/wall_film.hpp"
 
 namespace fsi::solid {
 
@@ -43,8 +42,6 @@ struct ElasticTerms {
   /// The normal m in cells at a surface between two viscosities, else zero; null: one viscosity.
   const CellField<Vec3>* normal = nullptr;
   Real rho_least = rho;  ///< the least density of solid and fluid
-  /// With a memory, the rule of films. Null: no cell is held.
-  const WallFilm* film = nullptr;
 };
 
 /// Two terms that keep velocity and strain stable and leave a resolved solution unchanged:
@@ -88,17 +85,6 @@ struct ElasticTerms {
 /// instead, its error at the surface would depend on the step, and with it the way of a body. A
 /// raised kappa makes the first term one of first order in dt; as dt goes to 0 no kappa is raised.
 ///
-/// Films. The strain of a cell that is left out at a film is extrapolated and does not answer to
-/// its velocity. The memory of the cells beside it does not contain the slip between both, and
-/// draws psi back. The solid at the wall would slip along it for ever, and pockets of fluid would
-/// grow under a solid that is pressed to a wall. Without a memory psi answers to the slip, and in
-/// the simplex zone psi is not drawn at the wave's rate near walls. Outside the zone, let k be a
-/// known cell beside it, across a face. Between both acts
-///   e_w g (u_N - u_P - L_k . d),   e_w = 30 (2 alpha - 1) |d| (rho G alpha_f lambda_B)^(1/2),
-/// alpha >= 1/2 that of the cell left out, and kappa is raised by e_w. So this cell moves with the
-/// solid farther in. With 3 in place of 30 a sphere that lodges in a throat slips on, and with 100
-/// another one comes off its place earlier.
-///
 /// In the simplex zone with a one-sided L, a flux of e that would add energy to the strain is set
 /// to 0. Its product with u_N - u_P less the spin of avg L times d is negative. Such fluxes occur
 /// since a one-sided L is no mean of the gradients at the faces. There with the map kinematics e is
@@ -125,10 +111,6 @@ class SemiImplicitElasticity {
   /// face, to what the flux needs.
   Vec3 damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights, Index f,
                Real l) const;
-  /// The flux through face f between a known cell and one that is left out at a film, zero at
-  /// others. Raises k likewise.
-  Vec3 hold_of_film(Real& k, const ElasticTerms& solid, const FaceWeights& weights, Index f,
-                    Real l) const;
   /// How fast the rise of u from the owner of face f to the neighbour changes along the stream, the
   /// part b of it.
   Vec3 change_of_rise(const ElasticTerms& solid, Index f) const;

@@ -307,8 +307,7 @@ void Body::list(io::Snapshot& snapshot) {
 
 void Body::resume() {
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  if (film) film->set(alpha);
-  if (remembers()) memory->resume(fraction_of_memory(), grad);
+  if (remembers()) memory->resume(alpha, grad);
   if (film) film->set(fraction_of_strain());
   std::visit([&](auto& k) { k.resume(strain_fraction(), grad); }, kinematics);
   update_B();

@@ -135,9 +135,6 @@ struct Body {
   }
   /// The same with the cells at films.
   const CellField<Real>& fraction_of_strain() const { return strain_by_flux() ? alpha_mid : alpha; }
-  /// The fraction that decides which cells carry the memory, once `film` is set to alpha: without
-  /// the cells at films.
-  const CellField<Real>& fraction_of_memory() const { return film ? film->fraction() : alpha; }
   /// Whether B is set in cells around the solid as well.
   bool extended() const {
     return std::visit([](const auto& k) { return k.extended; }, kinematics);

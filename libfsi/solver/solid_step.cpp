@@ -134,15 +134,13 @@ void Solver::take_interface_gradient(const Body& body, const CellField<Tensor>& 
 void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
   if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
-  if (body.film) body.film->set(body.alpha);
-  map.mark(body.fraction_of_memory());
+  map.mark(body.alpha);
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
   const solid::FlowSnapshot snapshot = snapshot_of(body, flow.u, L, flow);
   // The memory holds the interface, so it goes in parts with it: two at most, since each costs as
   // much as one of the whole step (doc/notebook/2026-11-27-along-the-path.md).
   const int parts = std::min(body.interface_parts, 2);
-  for (int i = 0; i < parts; ++i)
-    map.transport(body.fraction_of_memory(), snapshot, body.dt / parts, body.grad);
+  for (int i = 0; i < parts; ++i) map.transport(body.alpha, snapshot, body.dt / parts, body.grad);
 }
 
 void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow) {
@@ -268,8 +266,7 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
       .kink = !map,
       .one_sided = body.interface_gradient.has_value(),
       .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
-      .rho_least = flow.rho_least,
-      .film = body.film && body.remembers() ? &*body.film : nullptr};
+      .rho_least = flow.rho_least};
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 

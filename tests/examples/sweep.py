@@ -149,6 +149,15 @@ def main():
     check(bad.returncode == 2 and "column lid_velocity stands there twice" in bad.stderr,
           f"a column that stands there twice is refused: {bad.stderr}")
 
+    with open(named, "w", encoding="utf-8") as file:
+        file.write("name, lid_velocity\na/1, 1\na-1, 2\n")
+    bad = subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    check(bad.returncode == 2 and "two points would write into" in bad.stderr, f"so are two points of one folder: {bad.stderr}")
+    with open(named, "w", encoding="utf-8") as file:
+        file.write(f"name, lid_velocity\n{'long' * 80}, 1\n")
+    said = subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False).stdout
+    check(": complete" in said, f"a name too long for a folder is shortened: {said}")
+
     with open(os.path.join(second, ".lock"), "wb") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         os.remove(os.path.join(second, "summary.json"))
