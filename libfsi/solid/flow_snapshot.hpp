@@ -98,6 +98,8 @@ struct FlowSnapshot {
   Real recovery = 0;  ///< G / mu_s, rate of an elastic recovery that viscosity slows down
   /// The memory, at the end of the step; null: the solid has none.
   const ReferenceMap* memory = nullptr;
+  /// For the memory: alpha, 0 in cells that are left out at films; null: no wall has a film.
+  const CellField<Real>* inside = nullptr;
 };
 
 }  // namespace fsi::solid

@@ -236,6 +236,23 @@ Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Re
          alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 
+// (1 - exp(-0.2 Co)) (sum_k w_k (xi_k - grad xi_k . r_k) / sum_k w_k - xi)
+Vec3 ReferenceMap::towards_inside(Index c, const FlowSnapshot& snapshot, Real dt) const {
+  constexpr Real by_flow = 0.2;
+  if (snapshot.inside == nullptr || (*snapshot.inside)[c] >= alpha_known) return {};
+  Vec3 sum;
+  Real W = 0;
+  const SymmetryFaces& symmetry = extension_.symmetry();
+  for_neighbours_and_images(c, symmetry, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+    if ((*snapshot.inside)[k] < alpha_known) return;
+    const Real w = 1 / norm2(r);
+    W += w, sum += w * (image(d[k], n) - dot(image(slope_[k], n), r));
+  });
+  if (W == 0) return {};
+  const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);
+  return (1 - std::exp(-by_flow * courant)) * (sum / W - d[c]);
+}
+
 // In the middle of the step, r_f = x_f - x_c,
 //   V d xi/dt = -(sum_f phi_f (xi_f - xi_c) - grad xi . o),   xi = x + xihat,   o: off.
 // The sum carries xi with (1/V) sum_f phi_f r_f. In a linear u this is wrong by o / V, o = sum_f
@@ -272,7 +289,8 @@ void ReferenceMap::advance(const FlowSnapshot& snapshot, Real dt) {
   new_.clear();
   for (const Index c : known_.core())
     new_.push_back(d[c] - (dt / mesh_.V[c]) * outflow(c, snapshot, dt) +
-                   towards_volume(c, snapshot, dt) + without_alternation(c, snapshot, dt));
+                   towards_volume(c, snapshot, dt) + without_alternation(c, snapshot, dt) +
+                   towards_inside(c, snapshot, dt));
   const std::vector<Index>& core = known_.core();
   for (std::size_t i = 0; i < core.size(); ++i) d[core[i]] = new_[i];
   extend();

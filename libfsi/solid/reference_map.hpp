@@ -33,6 +33,13 @@ namespace fsi::solid {
 /// w_k = 1 / |r_k|^2. A velocity that alternates makes no lasting stress, but would distort the
 /// map.
 ///
+/// Films. In a cell that is left out at a film (WallFilm) the memory tends to that of its vertex
+/// neighbours k farther in, as fast as psi tends to the memory by the flow,
+///   xi <- xi + (1 - exp(-0.2 Co)) (sum_k w_k (xi_k - grad xi_k . r_k) / sum_k w_k - xi).
+/// The velocity of such a cell is not quite that of the solid. A solid that slides along a wall
+/// would distort its map there, and keep it when it leaves the wall. At rest the cells at the wall
+/// remember that the solid farther in may not slip past them.
+///
 /// No other term changes xi, so a solid that returns to its place is undeformed again.
 class ReferenceMap {
  public:
@@ -130,6 +137,9 @@ class ReferenceMap {
   Vec3 towards_volume(Index c, const FlowSnapshot& snapshot, Real dt) const;
   /// The change of the map by the fourth-difference filter in dt.
   Vec3 without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const;
+  /// The change of the map in dt in a known cell that is left out at a film, towards the map of the
+  /// cells farther in.
+  Vec3 towards_inside(Index c, const FlowSnapshot& snapshot, Real dt) const;
   void advance(const FlowSnapshot& snapshot, Real dt);
   void extend();
   bool folded() const;

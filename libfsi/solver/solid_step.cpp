@@ -136,7 +136,11 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
   solid::ReferenceMap& map = *body.memory;
   map.mark(body.alpha);
   if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
-  const solid::FlowSnapshot snapshot = snapshot_of(body, flow.u, L, flow);
+  solid::FlowSnapshot snapshot = snapshot_of(body, flow.u, L, flow);
+  if (body.film) {
+    body.film->set(body.alpha);
+    snapshot.inside = &body.film->fraction();
+  }
   // The memory holds the interface, so it goes in parts with it: two at most, since each costs as
   // much as one of the whole step (doc/notebook/2026-11-27-along-the-path.md).
   const int parts = std::min(body.interface_parts, 2);
