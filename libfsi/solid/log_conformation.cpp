@@ -133,9 +133,7 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
     // In a cell at a wall the map's gradient is one-sided, and that of the velocity is not. Stress
     // from the map would push such a cell farther off.
     if (!fit && extension_.inner(c) && memory.one_sided(c, false)) continue;
-    // Near walls of the zone the memory is less accurate than psi: the cells that carry it have a
-    // given velocity on one side.
-    const Real of_wave = !fit ? by_wave : memory.one_sided(c, true) ? 0 : by_wave_in_zone;
+    const Real of_wave = fit ? by_wave_in_zone : by_wave;
     const Real rate = (fit ? by_flow_in_zone : by_flow) * courant_rate(snapshot.phi, mesh_, c) +
                       of_wave * snapshot.wave_speed / cell_size(mesh_, c);
     const Real part = memory.trust(c) * (1 - std::exp(-dt * rate));

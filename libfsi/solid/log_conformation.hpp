@@ -86,9 +86,9 @@ class LogConformation {
   /// vartheta = `trust`, Co the Courant number of the cell, c_s = `wave_speed`. The transport
   /// smears psi with each cell that the flow crosses, but not the memory. If a stiff body hardly
   /// moves through the mesh, waves along its surface grow, and the term in c_s damps them. In the
-  /// simplex zone the exponent is -a Co - 0.02 c_s dt / h, and near walls there it is -a Co, with
-  /// a = 0.2 in 3-D and 0.05 in 2-D.
-  /// The memory's B is rougher in the zone, and the fourth-difference filter damps the waves.
+  /// simplex zone the exponent is -0.05 Co - 0.02 c_s dt / h in 2-D, and -0.2 Co - 0.1 c_s dt / h
+  /// in 3-D. The memory's B is rougher in the zone, and the fourth-difference filter damps the
+  /// waves.
   void recall(const FlowSnapshot& snapshot, Real dt);
   /// det B = 1: psi <- psi - (tr psi / 3) I; in plane strain psi_zz = 0 and half of tr psi.
   SymTensor isochoric(SymTensor p) const;
