@@ -132,7 +132,7 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
     const bool fit = by_fit(snapshot, c);
     // In a cell at a wall the map's gradient is one-sided, and that of the velocity is not. Stress
     // from the map would push such a cell farther off.
-    if (!fit && extension_.inner(c) && memory.one_sided(c, false)) continue;
+    if (!fit && extension_.inner(c) && memory.one_sided(c)) continue;
     const Real of_wave = fit ? by_wave_in_zone : by_wave;
     const Real rate = (fit ? by_flow_in_zone : by_flow) * courant_rate(snapshot.phi, mesh_, c) +
                       of_wave * snapshot.wave_speed / cell_size(mesh_, c);

@@ -58,14 +58,9 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
 
 void ReferenceMap::hold(std::vector<char> faces) {
   extension_.hold(std::move(faces));
-  CellField<Real> one_sided(mesh_);
+  one_sided_.assign(static_cast<std::size_t>(mesh_.n_owned), 0);
   for (Index f = mesh_.n_internal; f < mesh_.n_faces; ++f)
-    if (at_wall_[mesh_.owner[f]] > 0 && has_one_side(f)) one_sided[mesh_.owner[f]] = 1;
-  mesh_.halo.update(one_sided);
-  const auto is = [&](Index c) { return one_sided[c] > 0; };
-  one_sided_.clear();
-  for (Index c = 0; c < mesh_.n_owned; ++c)
-    one_sided_.push_back(is(c) ? 2 : std::ranges::any_of(mesh_.cell_neighbours[c], is) ? 1 : 0);
+    if (at_wall_[mesh_.owner[f]] > 0 && has_one_side(f)) one_sided_[mesh_.owner[f]] = 1;
 }
 
 void ReferenceMap::set_undeformed(const CellField<Real>& alpha) {

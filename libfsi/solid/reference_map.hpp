@@ -97,9 +97,8 @@ class ReferenceMap {
   SymTensor B(Index c, Real alpha) const;
   /// Trust vartheta in the map of a cell: 1 - |log2 J|, at least 0.
   Real trust(Index c) const;
-  /// Whether the gradient of the map in an owned cell is one-sided at a wall; near: or in a vertex
-  /// neighbour of it.
-  bool one_sided(Index c, bool near) const { return one_sided_[c] > (near ? 0 : 1); }
+  /// Whether the gradient of the map in an owned cell is one-sided at a wall.
+  bool one_sided(Index c) const { return one_sided_[c] != 0; }
   /// grad xihat, where it is set; owned and halo.
   const CellField<Tensor>& slope() const { return slope_; }
   /// Owned cells where d is set: the solid's and three rings around them.
@@ -152,10 +151,10 @@ class ReferenceMap {
   std::vector<Vec3> of_owner_, of_neighbour_;  ///< weights of the faces in the gradient of a cell
   Band known_;
   MapExtension extension_;
-  CellField<Real> filled_;       // alpha where xihat is set
-  CellField<Tensor> slope_;      // grad xihat
-  std::vector<char> one_sided_;  // owned; 2: one-sided at a wall, 1: beside such a cell
-  std::vector<Vec3> new_;        // in the order of the known cells
+  CellField<Real> filled_;                    // alpha where xihat is set
+  CellField<Tensor> slope_;                   // grad xihat
+  std::vector<char> one_sided_;               // owned; 1: one-sided at a wall
+  std::vector<Vec3> new_;                     // in the order of the known cells
   std::vector<std::pair<Index, Real>> kept_;  // cells to refit and their alpha
 };
 

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """A soft body lodges in a throat, against finite elements (contact.py, reference.csv, of a sphere reference_sphere.csv).
 
-    run.py DRIVER CASE MESHES FOLDER END NAME:PRESSURE:LIMIT...
+    run.py DRIVER CASE MESHES FOLDER END NAME:PRESSURE:LIMIT[:PART]...
 
 For each mesh NAME and inlet PRESSURE the body is at rest at t = END: its speed is below 5e-3. Its centroid is within
-LIMIT of the reference, if that has an equilibrium with this pressure. LIMIT "passes": the body has left the throat. A
+LIMIT of the reference, if that has an equilibrium with this pressure. The energies of strain and shape differ by less
+than PART of the first, where it is given. LIMIT "passes": the body has left the throat. A
 case sphere.yaml has half of a sphere: its energies are those of both halves here.
 """
 import csv
@@ -36,7 +37,7 @@ def main():
     bad, sphere = [], os.path.basename(case) == "sphere.yaml"
     file, behind, halves = ("reference_sphere.csv", 3.5, 2) if sphere else ("reference.csv", 2.5, 1)
     for scene in scenes:
-        name, pressure, limit = scene.split(":")
+        name, pressure, limit, *part = scene.split(":")
         out = os.path.join(folder, f"out-{name}-{pressure}")
         said = subprocess.run([driver, case, "-mesh", os.path.join(meshes, f"{name}.msh"), "-patches_inlet_pressure",
                                pressure, "-time_end", end, "-sample_interval", "0.5", "-output_interval", "0",
@@ -53,6 +54,8 @@ def main():
                 bad.append(f"{scene}: it is held")
         elif abs(last["ux"]) > STILL or (there and abs(last["x"] - there[0]) > float(limit)):
             bad.append(f"{scene}: it is not at rest near the reference")
+        elif part and abs(last["shape_energy"] / last["elastic_energy"] - 1) > float(part[0]):
+            bad.append(f"{scene}: strain and shape do not agree")
     return "; ".join(bad) or 0
 
 
