@@ -10,6 +10,28 @@
 #include "libfsi/mesh/quality.hpp"
 
 namespace fsi::flow {
+namespace {
+
+/// Collective. Sums of `size` values of the cells over slices of equal steps of q: value(c, slice,
+/// i). Between the middles of two slices a cell passes from one to the other, so that the line is
+/// continuous in q.
+template <class Value>
+std::vector<Real> over_slices(int slices, int size, const CellField<Real>& q, const Mesh& mesh,
+                              const Value& value) {
+  std::vector<Sum> sums(static_cast<std::size_t>(slices) * size);
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    const Real at = std::clamp((1 - q[c]) * slices - 0.5, Real{0}, static_cast<Real>(slices - 1));
+    const int k = std::min(static_cast<int>(at), slices - 2);
+    const Real share = at - k;
+    for (const auto& [slice, part] : {std::pair{k, 1 - share}, std::pair{k + 1, share}})
+      for (int i = 0; i < size; ++i) sums[slice * size + i].add(part * value(c, slice, i));
+  }
+  std::vector<Real> total(sums.size());
+  Sum::totals(total, sums);
+  return total;
+}
+
+}  // namespace
 
 CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::string& to) {
   Conditions conditions;
@@ -28,21 +50,15 @@ CentreLine::CentreLine(const Mesh& mesh, const std::string& from, const std::str
   // Slices of about two cells at least, by volume: the potential falls faster in narrow parts.
   const Real across = std::cbrt(static_cast<Real>(mesh.n_global));
   const int slices = std::clamp(static_cast<int>(across), 4, 200);
-  std::vector<Sum> sums(4 * static_cast<std::size_t>(slices));
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    // Between the middles of two slices a cell passes from one to the other, so that the line is
-    // continuous in q.
-    const Real at = std::clamp((1 - q[c]) * slices - 0.5, Real{0}, static_cast<Real>(slices - 1));
-    const int k = std::min(static_cast<int>(at), slices - 2);
-    const Real share = at - k, weight = mesh.V[c] * norm2(grad[c]);
-    for (const auto& [slice, w] :
-         {std::pair{k, (1 - share) * weight}, std::pair{k + 1, share * weight}}) {
-      for (int i = 0; i < 3; ++i) sums[4 * slice + i].add(w * mesh.C[c][i]);
-      sums[4 * slice + 3].add(w);
-    }
-  }
-  std::vector<Real> total(sums.size());
-  Sum::totals(total, sums);
+  // By |grad q| V the slices of a bend have their centre in its middle: there grad q is larger at
+  // the inner side. Where it is below half of its mean, as in dead ends, cells count less.
+  const auto mean = over_slices(slices, 2, q, mesh, [&](Index c, int, int i) {
+    return mesh.V[c] * (i == 0 ? norm(grad[c]) : norm2(grad[c]));
+  });
+  const auto total = over_slices(slices, 4, q, mesh, [&](Index c, int slice, int i) {
+    const Real size = norm(grad[c]), twice = 2 * size * mean[2 * slice] / mean[2 * slice + 1];
+    return mesh.V[c] * size * std::min(twice * twice, Real{1}) * (i < 3 ? mesh.C[c][i] : 1);
+  });
   add(centre(mesh, from));
   for (int k = 0; k < slices; ++k)
     if (const Real weight = total[4 * k + 3]; weight > 0)

@@ -11,7 +11,8 @@ namespace fsi::flow {
 
 /// The points of the line are the centres of the surfaces of equal potential q. Here Lap q = 0, q =
 /// 1 at the first patch, 0 at the second, and no flux passes through all others. Cells have the
-/// weight V |grad q|^2, so that dead ends with constant q do not count.
+/// weight V |grad q|, and less where |grad q| is below half of its mean on the surface, so that
+/// dead ends with constant q do not count.
 class CentreLine {
  public:
   /// Collective. Errors: Error{input} where the mesh has no such patches.

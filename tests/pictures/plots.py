@@ -122,6 +122,15 @@ def check_failed():
           "beside the interface too")
 
 
+def check_damaged():
+    """A field file that is cut off, as a copy that did not end, is told in a sentence."""
+    run = make("damaged", "10")
+    os.truncate(os.path.join(run.folder, "fields_0001.hdf"), 100)
+    command = [sys.executable, os.path.join(source, "examples", "draw.py"), run.folder]
+    said = subprocess.run(command, capture_output=True, text=True)
+    check(said.returncode == 1 and said.stderr.startswith("draw.py: "), f"a damaged file of fields: {said.stderr}")
+
+
 def check_empty_pipe():
     square = make("square", "1")
     check(plots.empty_gradient(square) is None, "no line of the empty pipe in one that is not round")
@@ -197,6 +206,7 @@ check_sweep()
 check_own_table()
 check_outlet()
 check_failed()
+check_damaged()
 check_empty_pipe()
 check_overlay()
 check_several()

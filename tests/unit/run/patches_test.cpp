@@ -21,11 +21,11 @@ TEST(CentreLine, FollowsTheVessel) {
   const Mesh mesh = test::read_box(box);
   const flow::CentreLine line(mesh, "left", "right");
   const Real length = 3 * std::acos(0.0);
-  EXPECT_NEAR(line.length(), length, 0.02 * length);
+  EXPECT_NEAR(line.length(), length, 0.005 * length);
   for (const Real part : {0.2, 0.5, 0.7}) {
     const auto [x, along] = line.at(part * line.length());
     const Real angle = part * std::acos(0.0);
-    EXPECT_NEAR(norm(x - Vec3{3 * std::sin(angle), 3 * std::cos(angle), 0.5}), 0, 0.06) << part;
+    EXPECT_NEAR(norm(x - Vec3{3 * std::sin(angle), 3 * std::cos(angle), 0.5}), 0, 0.015) << part;
     EXPECT_NEAR(dot(along, Vec3{std::cos(angle), -std::sin(angle), 0}), 1, 0.01) << part;
   }
   EXPECT_THROW(flow::CentreLine(mesh, "left", "nowhere"), Error);
