@@ -66,13 +66,13 @@ def check_tables(source, drivers, folder):
         file.write("fluid_viscosity\n0.1\n")
     values = {"my pulse.csv": 1, "beyond.csv": 0}
 
-    def ends(changed):
+    def ends(changed, more=()):
         values.update(changed)
         for name, value in values.items():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(f"0,{value}\n1,{value}\n")
         subprocess.run([os.path.join(source, "examples", "sweep", "run"), case, points, out, "--",
-                        os.path.join(drivers, "fsi-vessel"), "-mesh", mesh, "-time_end", "0.1"],
+                        os.path.join(drivers, "fsi-vessel"), "-mesh", mesh, "-time_end", "0.1", *more],
                        stdin=subprocess.DEVNULL, capture_output=True, check=False, cwd=source)
         row = list(csv.DictReader(text(out, "sweep.csv").splitlines()))[0]
         return float(row["flow_rate_outlet"]), float(row["mean_pressure_outlet"])
@@ -80,6 +80,15 @@ def check_tables(source, drivers, folder):
     found = [ends({}), ends({"my pulse.csv": 2}), ends({"beyond.csv": 3})]
     check(all(abs(a - b) < 1e-6 for pair in zip(found, [(1, 0), (2, 0), (2, 3)]) for a, b in zip(*pair)),
           f"a point runs anew where a table beside the case has changed: {found}")
+    flow = ["-flow_from", os.path.join(folder, "flow")]
+    begins = []
+    for end in ("0.02", "0.04"):
+        subprocess.run([os.path.join(drivers, "fsi-vessel"), case, "-mesh", mesh, "-time_end", end, "-checkpoint_interval",
+                        end, "-output_dir", flow[1]], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        ends({}, flow)
+        rows = csv.DictReader(text(out, "fluid_viscosity=0.1", "flow.csv").splitlines())
+        begins.append(float(next(rows)["t"]))
+    check(begins[0] < 0.04 < begins[1], f"and where the flow that it begins with has: {begins}")
 
 
 def main():
