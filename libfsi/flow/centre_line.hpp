@@ -11,7 +11,9 @@ namespace fsi::flow {
 
 /// The points of the line are the centres of the surfaces of equal potential q. Here Lap q = 0, q =
 /// 1 at the first patch, 0 at the second, and no flux passes through all others. Cells have the
-/// weight V |grad q|^2, so that dead ends with constant q do not count.
+/// weight V |grad q|, and less where |grad q| is below half of its mean on the surface, so that
+/// dead ends with constant q do not count. The direction of the line is the mean one of -grad q
+/// there.
 class CentreLine {
  public:
   /// Collective. Errors: Error{input} where the mesh has no such patches.
@@ -23,9 +25,9 @@ class CentreLine {
   std::pair<Vec3, Vec3> at(Real s) const;
 
  private:
-  void add(const Vec3& point);
+  void add(const Vec3& point, const Vec3& along);
 
-  std::vector<Vec3> points_;
+  std::vector<Vec3> points_, along_;
   std::vector<Real> arc_;  // [points]
 };
 

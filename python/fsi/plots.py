@@ -122,16 +122,17 @@ def with_drift(run):
     return tables
 
 
-def is_round(run):
-    """A solid that starts round has no axis."""
-    shapes = [v for k, v in run.options.items() if k.startswith("solid") and k.endswith("_shape")]
-    return any(shape in ("sphere", "disk") for shape in shapes) and "torus" not in shapes
+def is_round(run, solid):
+    """A solid that starts round has no axis; solid: the name of its table."""
+    several = f"solids_{solid.removeprefix('solid_')}_shape".lower()
+    return run.options.get("solid_shape" if solid == "solid" else several) == "sphere"
 
 
 def fits(panel, run, dim):
     """Whether a panel is useful for a run of this kind: a round solid has no axis, and between sliding
     plates the net flow is zero."""
-    return not (panel.key == "angle" and is_round(run) or panel.key == "taylor" and dim == 3 or
+    without_axis = all(is_round(run, solid) for solid in run.solids)
+    return not (panel.key == "angle" and without_axis or panel.key == "taylor" and dim == 3 or
                 panel.key == "rate" and run.summary.get("case") == "shear")
 
 
@@ -163,9 +164,10 @@ def figure_of(count, columns=3):
 def lines_over_time(panel, run, tables, asked):
     """The (column, t, values) of a panel; of several solids each column has the name of its solid before it."""
     if panel.table != "solid" or len(run.solids) < 2:
-        return [(column, tables[panel.table]["t"], values)
-                for column, values in lines_of(panel, tables[panel.table], asked)]
+        table = tables.get(panel.table, {})
+        return [(column, table["t"], values) for column, values in lines_of(panel, table, asked)]
     return [(f"{solid.removeprefix('solid_')} {column}", tables[solid]["t"], values) for solid in run.solids
+            if asked or panel.key != "angle" or not is_round(run, solid)
             for column, values in lines_of(panel, tables[solid], asked)]
 
 
@@ -202,7 +204,8 @@ def series(run, show=None, units=labels.Units()):
 
 
 def overlay(runs_shown, show=None, units=labels.Units()):
-    """Several runs over each other, a panel for each column; a legend by the options that differ."""
+    """Several runs over each other, a panel for each column, of several solids for each column of each;
+    a legend by the options that differ."""
     tables = [with_drift(run) for run in runs_shown]
     dim = runs_shown[0].snapshot(0).dim if runs_shown[0].items else 3
     panels, asked = chosen_panels(show, tables[0])
@@ -210,22 +213,22 @@ def overlay(runs_shown, show=None, units=labels.Units()):
     for panel in panels:
         if not asked and not fits(panel, runs_shown[0], dim):
             continue
-        names = [name for table in tables for name, _ in lines_of(panel, table.get(panel.table, {}), asked)]
-        for name in names:
-            found.setdefault((panel.table, name), (panel, name))
+        for run, table in zip(runs_shown, tables):
+            for name, _, _ in lines_over_time(panel, run, table, asked):
+                found.setdefault((panel.table, name), (panel, name))
     if not found:
         return None
     figure, axes = figure_of(len(found))
-    names = legend(runs_shown)
     for ax, (panel, column) in zip(axes, found.values()):
-        for table, name, colour in zip(tables, names, style.colours(len(tables))):
-            if column in table.get(panel.table, {}):
-                ax.plot(table[panel.table]["t"], _shown(table[panel.table][column], panel),
-                        color=colour, label=name)
-        values = np.concatenate([table[panel.table][column] for table in tables
-                                 if column in table.get(panel.table, {})])
-        _finish(ax, panel, units, dim, values, "" if panel.columns == (column,) else column)
+        drawn = []
+        for run, table, colour in zip(runs_shown, tables, style.colours(len(tables))):
+            for name, t, values in lines_over_time(panel, run, table, True):
+                if name == column:
+                    ax.plot(t, _shown(values, panel), color=colour)
+                    drawn.append(values)
+        _finish(ax, panel, units, dim, np.concatenate(drawn), "" if panel.columns == (column,) else column)
     handles = [plt.Line2D([], [], color=c) for c in style.colours(len(tables))]
+    names = legend(runs_shown)
     figure.legend(handles, names, loc="lower left", bbox_to_anchor=(0, 1), ncol=min(3, len(names)))
     return figure
 

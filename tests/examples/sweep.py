@@ -54,6 +54,43 @@ def has_checkpoint(folder):
                                          if f.endswith(".h5"))
 
 
+def check_tables(source, drivers, folder):
+    """A table beside the case counts as one in the working folder does, also with a blank in its name."""
+    mesh, case, points, out = (os.path.join(folder, name) for name in ("channel.msh", "case.yaml", "inlet.csv", "flows"))
+    subprocess.run(["gmsh", "-2", os.path.join(source, "meshes", "channel.geo"), "-setnumber", "n", "6", "-o", mesh],
+                   check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    with open(case, "w", encoding="utf-8") as file:
+        file.write("patches:\n  inlet: {type: flow_rate, flow_rate: my pulse.csv}\n"
+                   "  outlet: {type: pressure, pressure: beyond.csv}  # beyond.csv\n")
+    with open(points, "w", encoding="utf-8") as file:
+        file.write("fluid_viscosity\n0.1\n")
+    values = {"my pulse.csv": 1, "beyond.csv": 0}
+
+    def ends(changed, more=()):
+        values.update(changed)
+        for name, value in values.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(f"0,{value}\n1,{value}\n")
+        subprocess.run([os.path.join(source, "examples", "sweep", "run"), case, points, out, "--",
+                        os.path.join(drivers, "fsi-vessel"), "-mesh", mesh, "-time_end", "0.1", *more],
+                       stdin=subprocess.DEVNULL, capture_output=True, check=False, cwd=source)
+        row = list(csv.DictReader(text(out, "sweep.csv").splitlines()))[0]
+        return float(row["flow_rate_outlet"]), float(row["mean_pressure_outlet"])
+
+    found = [ends({}), ends({"my pulse.csv": 2}), ends({"beyond.csv": 3})]
+    check(all(abs(a - b) < 1e-6 for pair in zip(found, [(1, 0), (2, 0), (2, 3)]) for a, b in zip(*pair)),
+          f"a point runs anew where a table beside the case has changed: {found}")
+    flow = ["-flow_from", os.path.join(folder, "flow")]
+    begins = []
+    for end in ("0.02", "0.04"):
+        subprocess.run([os.path.join(drivers, "fsi-vessel"), case, "-mesh", mesh, "-time_end", end, "-checkpoint_interval",
+                        end, "-output_dir", flow[1]], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        ends({}, flow)
+        rows = csv.DictReader(text(out, "fluid_viscosity=0.1", "flow.csv").splitlines())
+        begins.append(float(next(rows)["t"]))
+    check(begins[0] < 0.04 < begins[1], f"and where the flow that it begins with has: {begins}")
+
+
 def main():
     source, drivers, folder = sys.argv[1:4]
     folder = os.path.join(os.path.abspath(folder), "sweep")
@@ -174,6 +211,7 @@ def main():
     bad = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     check(bad.returncode == 2 and f'"{points}" cannot be read' in bad.stderr,
           f"so is a table that is not there: {bad.stderr}")
+    check_tables(source, os.path.abspath(drivers), folder)
     return 1 if failures else 0
 
 

@@ -36,10 +36,11 @@ def make(name, modulus, shape="torus", mesh=box((2, 1, 1), (8, 8, 8)), **more):
     def fields(time):
         return {"u": np.full((count, 3), time), "alpha": ball(fsi.Mesh(*mesh), (1, 0.5, 0.5), 0.3 - time)}
     flow = {"t": TIME[1:], "pressure_gradient": 0.2 + 0 * TIME[1:] + 0.1 / TIME[1:], "divergence_max": TIME[1:]}
+    options = {"solid_shape": shape} if shape else more["shapes"]
+    tables = {"solid": solid(slope=float(modulus))} if shape else {}
     write_run(place, mesh, more.get("times", [0.0, 0.1, 1.0]), fields,
-              {"solid_shear_modulus": modulus, "solid_shape": shape, "output_dir": name, "fluid_viscosity": "0.01",
-               "flow_mean_velocity": "0.5"}, {"solid": solid(slope=float(modulus)), "flow": flow,
-                                             **more.get("tables", {})})
+              {"solid_shear_modulus": modulus, **options, "output_dir": name, "fluid_viscosity": "0.01",
+               "flow_mean_velocity": "0.5"}, {**tables, "flow": flow, **more.get("tables", {})})
     return fsi.Run(place)
 
 
@@ -121,6 +122,15 @@ def check_failed():
           "beside the interface too")
 
 
+def check_damaged():
+    """A field file that is cut off, as a copy that did not end, is told in a sentence."""
+    run = make("damaged", "10")
+    os.truncate(os.path.join(run.folder, "fields_0001.hdf"), 100)
+    command = [sys.executable, os.path.join(source, "examples", "draw.py"), run.folder]
+    said = subprocess.run(command, capture_output=True, text=True)
+    check(said.returncode == 1 and said.stderr.startswith("draw.py: "), f"a damaged file of fields: {said.stderr}")
+
+
 def check_empty_pipe():
     square = make("square", "1")
     check(plots.empty_gradient(square) is None, "no line of the empty pipe in one that is not round")
@@ -147,6 +157,21 @@ def check_overlay():
     said = subprocess.run(command[:3] + ["--show", "angel"], capture_output=True, text=True)
     check(said.returncode == 1 and said.stderr.startswith("draw.py: nothing is called"),
           "and refuses what it does not know in a sentence")
+
+
+def check_several():
+    """Each of several solids has its own lines and panels, and the axis of one that is not round."""
+    tables = {f"solid_{name}": {**solid(), "x": way * TIME} for name, way in (("ball", 1), ("Rod", 2))}
+    shapes = {"solids_ball_shape": "sphere", "solids_rod_shape": "ellipsoid"}
+    runs = [make(name, modulus, None, tables=tables, shapes=shapes) for name, modulus in (("one", "1"), ("two", "5"))]
+    angle = next((axes for axes in plots.series(runs[0]).axes if axes.get_title(loc="left").startswith("angle")), None)
+    check(angle is not None and len(angle.lines) == 1, "the axis of the rod beside a ball is drawn, that of the ball not")
+    figure = plots.overlay(runs, ["x"])
+    ends = [line.get_ydata()[-1] for axes in figure.axes for line in axes.lines]
+    check(titles(figure) == ["x: Rod x", "x: ball x"] and ends == [2, 2, 1, 1],
+          f"runs over each other show every solid: {titles(figure)}, {ends}")
+    told = titles(plots.series(make("disk", "1", "disk")))
+    check(any(title.startswith("angle") for title in told), f"a disk has an axis: {told}")
 
 
 def check_sections():
@@ -181,7 +206,9 @@ check_sweep()
 check_own_table()
 check_outlet()
 check_failed()
+check_damaged()
 check_empty_pipe()
 check_overlay()
+check_several()
 check_sections()
 sys.exit(1 if made_up.failures else 0)
