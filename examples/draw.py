@@ -93,8 +93,11 @@ def print_numbers(run):
     """How the run ended, and what the solid went through."""
     summary = run.summary
     if summary:
+        per_step = summary.get("us_per_cell_step", 0) * 1e-6 * summary["cells"]  # of those since a restart
+        made = round(summary["wall_seconds"] / per_step) if per_step > 0 else summary["steps"]
+        those = "" if made == summary["steps"] else f", {made} of them in"
         print(f"  {summary['status']} at t = {summary['t']:.6g}: {summary['cells']} cells, "
-              f"{summary['ranks']} {'rank' if summary['ranks'] == 1 else 'ranks'}, {summary['steps']} steps, "
+              f"{summary['ranks']} {'rank' if summary['ranks'] == 1 else 'ranks'}, {summary['steps']} steps{those or ','} "
               f"{summary['wall_seconds']:.4g} s")
     for name, data in plots.with_drift(run).items():
         if not os.path.exists(os.path.join(run.folder, name + ".csv")):
