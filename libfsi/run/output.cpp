@@ -289,9 +289,10 @@ void Output::write_rows(const Limit& limit, Real dt) {
     if (!times.empty()) rows_at_ = seconds, row_step_ = s.step;
   }
   for (const Real t : times) {
-    flow_->row(samples_.row(0, now[0], t));
-    for (std::size_t i = 1; i < now.size(); ++i)
-      if (!now[i].entries.empty()) solids_[i - 1]->row(samples_.row(i, now[i], t));
+    const std::vector<std::vector<Real>> all = samples_.rows(now, t);
+    flow_->row(all[0]);
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (!all[i].empty()) solids_[i - 1]->row(all[i]);
   }
   samples_.hold(near ? std::move(now) : std::vector<Row>{});
 }

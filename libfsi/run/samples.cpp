@@ -73,6 +73,22 @@ std::vector<Real> Samples::row(std::size_t i, const Row& now, Real t) const {
   return between(i < held_.size() ? held_[i] : Row{}, now, t);
 }
 
+std::vector<std::vector<Real>> Samples::rows(const std::vector<Row>& now, Real t) const {
+  const auto energy = [&](std::size_t i) {
+    return std::ranges::find(now[i].entries, "elastic_energy", &Entry::name) -
+           now[i].entries.begin();
+  };
+  std::vector<std::vector<Real>> all{row(0, now[0], t)};
+  Real sum = 0;
+  for (std::size_t i = 1; i < now.size(); ++i) {
+    const bool gone = now[i].entries.empty();
+    all.push_back(gone ? std::vector<Real>{} : row(i, now[i], t));
+    if (!gone) sum += all[i][static_cast<std::size_t>(energy(i))];
+  }
+  all[0][static_cast<std::size_t>(energy(0))] = sum;
+  return all;
+}
+
 std::string Samples::text() const {
   std::string text;
   const auto add = [&](Real value) {

@@ -55,6 +55,9 @@ class Samples {
   Real not_past(Real t) const;
   /// The row of table `i` at t, a time due in the step that led from the rows held to `now`.
   std::vector<Real> row(std::size_t i, const Row& now, Real t) const;
+  /// The rows of all tables at t: that of the flow, then those of the solids; none of one that is
+  /// gone. Solids may be of different times. So the flow's `elastic_energy` is the sum of theirs.
+  std::vector<std::vector<Real>> rows(const std::vector<Row>& now, Real t) const;
   /// Holds these rows; none: holds nothing.
   void hold(std::vector<Row> rows) { held_ = std::move(rows); }
 

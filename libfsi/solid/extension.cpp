@@ -20,11 +20,11 @@ bool beside_known(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
 }
 
 /// The value of `zone_` in a known cell.
-Real zone(Index c, const CellField<Real>& alpha, const Mesh& mesh) {
+Real zone(Index c, const CellField<Real>& alpha, const SymmetryFaces& symmetry, const Mesh& mesh) {
   bool wall = false;
   for (const Index f : mesh.cell_faces[c]) {
     const Index n = beyond(mesh, f, c);
-    wall = wall || n < 0;
+    wall = wall || (n < 0 && !symmetry.has(f, mesh));
     if (n >= 0 && !(alpha[n] >= alpha_known)) return near_zone;
   }
   return wall ? inner_zone : surrounded_zone;
@@ -45,7 +45,7 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
   near_.insert(near_.end(), rings_.all().begin(), rings_.all().end());
   near_.insert(near_.end(), alone_.begin(), alone_.end());
   for (const Index c : near_) zone_[c] = near_zone;
-  for (const Index c : known.core()) zone_[c] = zone(c, alpha, mesh_);
+  for (const Index c : known.core()) zone_[c] = zone(c, alpha, symmetry_, mesh_);
   mesh_.halo.update(zone_);
 }
 

@@ -28,8 +28,8 @@ inline constexpr Real alpha_known = 0.5;
 /// and their images beyond planes of symmetry. To extrapolate no noise from cell to cell, Gamma is
 /// multiplied by (Gamma : Gammabar) / (Gamma : Gamma), limited to 0 to 1. Gammabar is the mean of
 /// the fitted slopes over those vertex neighbours that are inner cells and have no face on the
-/// boundary. Without such neighbours, as in a thin solid, Gamma = 0 and the extrapolation is
-/// constant. In a thicker solid it is exact for a linear T.
+/// boundary but on these planes. Without such neighbours, as in a thin solid, Gamma = 0 and the
+/// extrapolation is constant. In a thicker solid it is exact for a linear T.
 ///
 /// A cell of alpha >= 1/2 without such a face neighbour is not known: nothing would limit its
 /// strain.
@@ -75,7 +75,7 @@ class Extension {
 
   const Mesh& mesh_;
   SymmetryFaces symmetry_;
-  CellField<Real> zone_;  // 1: near, 2: inner, 3: inner without a boundary face
+  CellField<Real> zone_;  // 1: near, 2: inner, 3: inner, and no boundary face but of symmetry
   Rings rings_;
   std::vector<Index> known_, alone_, near_;  // alone_: alpha >= 1/2, but no known cell
   std::vector<SymGradient> slopes_;

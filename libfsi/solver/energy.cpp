@@ -32,10 +32,10 @@ void add_kinetic_energy(Sum& sum, const Solver& solver) {
   }
 }
 
-/// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B has no positive determinant.
+/// B / (det B)^(1/dim), in plane strain with B_zz = 1; I where B is not positive definite.
 SymTensor isochoric(SymTensor B, int dim) {
-  const Real J2 = dim == 2 ? B.xx * B.yy - B.xy * B.xy : det(B);
-  if (!(J2 > 0)) return identity();
+  const Real in_plane = B.xx * B.yy - B.xy * B.xy, J2 = dim == 2 ? in_plane : det(B);
+  if (!(B.xx > 0 && in_plane > 0 && J2 > 0)) return identity();
   B = (1 / (dim == 2 ? std::sqrt(J2) : std::cbrt(J2))) * B;
   if (dim == 2) B.zz = 1;
   return B;

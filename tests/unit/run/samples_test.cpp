@@ -49,6 +49,29 @@ TEST(Samples, AnEnergyIsNeverBelowZero) {
   EXPECT_EQ(between(at(0, 3), at(1, 2), 1)[1], 1.5);
 }
 
+// One solid stands half a step behind the flow, one is of its time, and one is gone.
+TEST(Samples, TheFlowHasTheEnergyOfAllSolidsAtTheirTimes) {
+  const auto at = [](Real t, Real behind, Real energy) {
+    return Row{t, t - behind, {{"t", t}, {"elastic_energy", energy, Course::energy}}};
+  };
+  for (const bool swapped : {false, true}) {
+    const auto rows_at = [&](Real t, Real first, Real second) {
+      std::vector<Row> rows{at(t, swapped ? 0 : 0.5, first + second), at(t, 0.5, first),
+                            at(t, 0, second), Row{t, t, {}}};
+      if (swapped) std::swap(rows[1], rows[2]);
+      return rows;
+    };
+    Samples samples(1);
+    samples.hold(rows_at(0, 3, 5));
+    const auto rows = samples.rows(rows_at(1, 2, 7), 1);
+    ASSERT_EQ(rows.size(), 4);
+    EXPECT_EQ(rows[0], (std::vector<Real>{1, 1.5 + 7}));
+    EXPECT_EQ(rows[swapped ? 2 : 1], (std::vector<Real>{1, 1.5}));
+    EXPECT_EQ(rows[swapped ? 1 : 2], (std::vector<Real>{1, 7}));
+    EXPECT_TRUE(rows[3].empty());
+  }
+}
+
 TEST(Samples, AtItsEndTheRowIsThatOfTheStep) {
   const Row now = row_at(0.3, 0);
   const auto values = between(row_at(0.2, 0), now, 0.3);

@@ -72,6 +72,31 @@ TEST(Extension, IsExactForALinearTensor) {
   }
 }
 
+// Between planes of symmetry two layers of cells are no thin solid: nothing varies across them.
+TEST(Extension, IsExactInTwoLayersBetweenPlanesOfSymmetry) {
+  const auto in_plane = [](const Vec3& x) {
+    return SymTensor{1 + x.x, 2 * x.y - x.x, 0, -3 * x.y, 0, 0.5 + x.y};
+  };
+  Known run({.n = {20, 20, 2}, .length = {1, 1, 0.1}}, 0.7, in_plane);
+  const Mesh& mesh = run.mesh;
+  SymmetryFaces planes{std::vector<char>(static_cast<std::size_t>(mesh.n_boundary()), 0)};
+  for (const Patch& patch : mesh.patches)
+    for (Index f = patch.begin; f < patch.end; ++f)
+      planes.is[f - mesh.n_internal] = std::abs(mesh.Sf[f].z) > 0 ? 1 : 0;
+  solid::Extension extension(mesh, planes);
+  for (Index c = 0; c < mesh.n_cells; ++c) {
+    run.alpha[c] = std::hypot(mesh.C[c].x - 0.5, mesh.C[c].y - 0.5) < 0.28 ? 1 : 0;
+    run.T[c] = run.alpha[c] * in_plane(mesh.C[c]);
+  }
+  run.known.rebuild(run.alpha, solid::alpha_known);
+  extension.mark(run.alpha, run.known);
+  extension.linear(run.T, run.slope);
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    if (extension.near()[c] != 0) {
+      EXPECT_LE(largest(run.T[c] - in_plane(mesh.C[c])), 1e-12);
+    }
+}
+
 // What alternates from cell to cell goes no further out than it is high; a solid two cells thick
 // goes on as a constant.
 TEST(Extension, DoesNotExtrapolateNoise) {
