@@ -106,14 +106,15 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
 }
 
 Projection::Projection(const Mesh& mesh, const FaceWeights& weights,
-                       const std::vector<Condition>& conditions, Method method, int correctors)
+                       const std::vector<Condition>& conditions, Method method, int correctors,
+                       const std::vector<bool>& mirrors)
     : mesh_(mesh),
       weights_(weights),
       correctors_(weights.uneven ? correctors : 0),
       open_(std::ranges::any_of(conditions, fixes_pressure)),
       open_face_(faces_where(conditions, mesh, fixes_pressure)),
       adjustable_(faces_where(conditions, mesh, prescribes_flow)),
-      stencil_(mesh, weights, patches_where(conditions, fixes_pressure)),
+      stencil_(mesh, weights, patches_where(conditions, fixes_pressure), mirrors),
       first_(mesh),
       grad_f_(weights.irregular.size()),
       b_(static_cast<std::size_t>(mesh.n_owned)),

@@ -84,9 +84,10 @@ void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, const Boundary
 /// grow with the root of the ratio of the largest to the least density.
 class Projection {
  public:
-  /// correctors: extra solves for the non-orthogonal part, on meshes that have one.
+  /// correctors: extra solves for the non-orthogonal part, on meshes that have one. mirrors[i]:
+  /// whether the pressure is symmetric about mesh.patches[i] (empty: false).
   Projection(const Mesh& mesh, const FaceWeights& weights, const std::vector<Condition>& conditions,
-             Method method, int correctors);
+             Method method, int correctors, const std::vector<bool>& mirrors = {});
 
   /// phi: every face set. q_b: of q on openings. On return phi is divergence-free to the solver's
   /// tolerance, its sum over the boundary zero to round-off; q and grad_q (owned and halo) are what
@@ -118,7 +119,8 @@ class Projection {
   std::optional<FaceField<Real>>& oblique_rest() { return oblique_rest_; }
   /// At irregular faces, of the last `set_gradient`; `project` overwrites it.
   const std::vector<Vec3>& face_gradient() const { return grad_f_; }
-  /// A given pressure counts as a value; on all other patches it is extrapolated to the boundary.
+  /// A given pressure counts as a value; on all other patches it is extrapolated to the boundary,
+  /// on planes of symmetry with no slope along the normal.
   PressureStencil& stencil() { return stencil_; }
   /// Whether some patch gives the pressure.
   bool open() const { return open_; }

@@ -5,6 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include "libfsi/core/parallel.hpp"
 
@@ -137,6 +139,25 @@ std::string summary(const std::string& file, const Mesh& mesh, const MeshFigures
           q.skewness.value, q.volume_ratio.value, q.aspect_ratio.value);
   if (figures.gap.cells > 0) line += print(", %.1f cells across", figures.gap.cells);
   return line;
+}
+
+Real curvature(const Patch& patch, const Mesh& mesh) {
+  constexpr Real edge = 30;
+  std::map<Index, std::vector<Vec3>> around;  // a point: the normals there
+  Real most = 0;
+  for (Index f = patch.begin; f < patch.end; ++f) {
+    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    for (const Index p : mesh.face_points[f]) {
+      std::vector<Vec3>& there = around[mesh.vertex[p]];
+      for (const Vec3& other : there) {
+        const Real angle =
+            std::atan2(norm(cross(n, other)), dot(n, other)) * 180 / std::numbers::pi;
+        if (angle < edge) most = std::max(most, angle);
+      }
+      there.push_back(n);
+    }
+  }
+  return global_max(most);
 }
 
 std::string warning(const std::string& file, const std::vector<Finding>& found) {

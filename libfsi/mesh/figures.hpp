@@ -39,6 +39,10 @@ struct PatchArea {
 /// Collective. Over all ranks.
 PatchArea area_of(const Patch& patch, const Mesh& mesh);
 
+/// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that
+/// share a point; angles of more than 30 degrees are edges between planes and do not count.
+Real curvature(const Patch& patch, const Mesh& mesh);
+
 /// "from (x, y, z) to (x, y, z)".
 std::string text_of(const Box& box);
 

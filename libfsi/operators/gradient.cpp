@@ -56,14 +56,14 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
       at[P] = static_cast<Index>(stencil.closed.size());
       stencil.closed_cells.push_back(P), stencil.closed.push_back(unit);
     }
-    stencil.closed[at[P]] += (-1 / mesh.V[P]) * outer(mesh.Sf[f], mesh.d[f]);
+    stencil.closed[at[P]] += (-1 / mesh.V[P]) * outer(mesh.Sf[f], stencil.to_boundary(f, mesh));
   }
   for (std::size_t i = 0; i < stencil.closed.size(); ++i) {
     const Index c = stencil.closed_cells[i];
     Tensor& M = stencil.closed[i];
     if (std::abs(det(M)) < no_inverse)
       for (const Index f : opposite_faces(stencil.given, mesh, c))
-        M += (1 / mesh.V[c]) * outer(mesh.Sf[f], mesh.d[f]);
+        M += (1 / mesh.V[c]) * outer(mesh.Sf[f], stencil.to_boundary(f, mesh));
     M = std::abs(det(M)) < no_inverse ? unit : inverse(M);
   }
 }
@@ -72,11 +72,12 @@ void set_closed(GradientStencil& stencil, const Mesh& mesh) {
 
 GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
                                  const std::vector<bool>& has_value,
-                                 const std::vector<bool>& at_foot)
+                                 const std::vector<bool>& mirrors)
     : weights(weights_),
       owner(static_cast<std::size_t>(mesh.n_faces)),
       neighbour(static_cast<std::size_t>(mesh.n_internal)),
-      given(static_cast<std::size_t>(mesh.n_boundary()), 0) {
+      given(static_cast<std::size_t>(mesh.n_boundary()), 0),
+      mirror(given) {
   // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d: the
   // gradient along the normal is taken as zero there.
   std::vector<Tensor> M(static_cast<std::size_t>(mesh.n_cells)), fallback(M.size());
@@ -93,9 +94,10 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
       const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f], n = mesh.Sf[f] / norm(mesh.Sf[f]),
                  foot = dot(mesh.d[f], n) * n;
       given[f - mesh.n_internal] = has_value[i] ? 1 : 0;
+      mirror[f - mesh.n_internal] = !mirrors.empty() && mirrors[i] ? 1 : 0;
       if (has_value[i]) {
         owner[f] = g0;
-        M[P] += outer(g0, !at_foot.empty() && at_foot[i] ? foot : mesh.d[f]);
+        M[P] += outer(g0, mirror[f - mesh.n_internal] != 0 ? foot : mesh.d[f]);
       } else {
         fallback[P] += outer(g0, mesh.d[f] - foot);
       }
@@ -148,7 +150,7 @@ void pressure_gradient(CellField<Vec3>& grad, const std::vector<Vec3>& g_f,
       grad[P] += rest;
       grad[mesh.neighbour[f]] -= rest;
     } else if (stencil.given[f - mesh.n_internal] == 0 && !mesh.brick(P)) {
-      grad[P] += dot(g_f[i], mesh.d[f]) * mesh.Sf[f];
+      grad[P] += dot(g_f[i], stencil.to_boundary(f, mesh)) * mesh.Sf[f];
     }
   }
   for (Index c = 0; c < mesh.n_owned; ++c) grad[c] *= 1 / mesh.V[c];

@@ -33,26 +33,32 @@ SymTensor raised_inverse(SymTensor M, int dim) {
   return inverse(M);
 }
 
-SymTensor inverse_moments(const Mesh& mesh, Index c) {
+SymTensor inverse_moments(const Mesh& mesh, Index c, const SymmetryFaces& symmetry) {
   constexpr Real flat = 1e-6;
   SymTensor M;
-  for_vertex_neighbours(c, mesh, [&](Index, const Vec3& r) { M += (1 / norm2(r)) * square(r); });
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index, const Vec3& r, const Vec3& /*n*/) {
+    M += (1 / norm2(r)) * square(r);
+  });
   const bool told = tells(M, mesh.dim, flat);
   if (mesh.dim == 2) M.zz = 0.5 * trace(M);  // any value, since no vector has a part along z
   return told ? inverse(M) : pseudo_inverse(M, flat);
 }
 
-Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& mesh, Index c) {
+Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& mesh, Index c,
+              const SymmetryFaces& symmetry) {
   Vec3 sum;
-  for_vertex_neighbours(c, mesh,
-                        [&](Index k, const Vec3& r) { sum += ((q[k] - q[c]) / norm2(r)) * r; });
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& /*n*/) {
+    sum += ((q[k] - q[c]) / norm2(r)) * r;
+  });
   return dot(inverse, sum);
 }
 
-Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c) {
+Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c,
+                const SymmetryFaces& symmetry) {
   Tensor sum;
-  for_vertex_neighbours(c, mesh,
-                        [&](Index k, const Vec3& r) { sum += outer(u[k] - u[c], r / norm2(r)); });
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+    sum += outer(image(u[k], n) - u[c], r / norm2(r));
+  });
   return dot(sum, inverse);
 }
 

@@ -13,6 +13,7 @@
 
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi {
 
@@ -66,16 +67,18 @@ struct SlopeFit {
   Tensor R;      ///< sum of w (du - guess . r) r
 };
 
-/// Inverse of M over the vertex neighbours of owned cell c. In directions that these do not span
-/// (in a corner cell, or a layer one cell thick) it is the pseudo-inverse, so that the slope there
-/// is zero.
-SymTensor inverse_moments(const Mesh& mesh, Index c);
+/// Inverse of M over the vertex neighbours of owned cell c and the images in planes of symmetry
+/// (`for_images`). In directions that these do not span (in a corner cell, or a layer one cell
+/// thick) it is the pseudo-inverse, so that the slope there is zero.
+SymTensor inverse_moments(const Mesh& mesh, Index c, const SymmetryFaces& symmetry = {});
 
-/// grad q = M^-1 sum w r (q_k - q_c) over the vertex neighbours of owned cell c, exact for linear
-/// q. inverse: of `inverse_moments`. q: the neighbours' values set.
-Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& mesh, Index c);
+/// grad q = M^-1 sum w r (q_k - q_c) over the same cells and images, exact for linear q. inverse:
+/// of `inverse_moments` with the same planes. q: the neighbours' values set.
+Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& mesh, Index c,
+              const SymmetryFaces& symmetry = {});
 /// L_ij = d u_i / d x_j.
-Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c);
+Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c,
+                const SymmetryFaces& symmetry = {});
 
 /// A quadratic velocity u(x_c + r) = u_c + L . r + (1/2) r . H . r, fitted to values u_k and
 /// gradients L_k around the cell:

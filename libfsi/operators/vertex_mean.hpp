@@ -58,9 +58,11 @@ class VertexMean {
 
 /// The stencils of the gradient of a pressure (operators/gradient.hpp).
 struct PressureStencil {
-  /// Collective. given[i]: whether the pressure is given on mesh.patches[i].
-  PressureStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& given)
-      : cells(mesh, weights, given), at_faces(mesh, cells) {}
+  /// Collective. given[i]: whether the pressure is given on mesh.patches[i]; mirrors[i]: whether
+  /// these are planes of symmetry (empty: false).
+  PressureStencil(const Mesh& mesh, const FaceWeights& weights, const std::vector<bool>& given,
+                  const std::vector<bool>& mirrors = {})
+      : cells(mesh, weights, given, mirrors), at_faces(mesh, cells) {}
 
   GradientStencil cells;      ///< gradient in the cells
   VertexMean<Vec3> at_faces;  ///< and at irregular faces

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
@@ -81,25 +80,6 @@ Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end
   for (int i = 0; i < times; ++i)
     for (Index c = 0; c < mesh.n_owned; ++c)
       most = std::max(most, norm(f(mesh.C[c], end * golden(i))));
-  return global_max(most);
-}
-
-Real curvature(const Patch& patch, const Mesh& mesh) {
-  constexpr Real edge = 30;
-  std::map<Index, std::vector<Vec3>> around;  // a point: the normals there
-  Real most = 0;
-  for (Index f = patch.begin; f < patch.end; ++f) {
-    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-    for (const Index p : mesh.face_points[f]) {
-      std::vector<Vec3>& there = around[mesh.vertex[p]];
-      for (const Vec3& other : there) {
-        const Real angle =
-            std::atan2(norm(cross(n, other)), dot(n, other)) * 180 / std::numbers::pi;
-        if (angle < edge) most = std::max(most, angle);
-      }
-      there.push_back(n);
-    }
-  }
   return global_max(most);
 }
 

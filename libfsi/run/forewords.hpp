@@ -30,10 +30,6 @@ std::string text_of(const PeakFlow& peak, Real nu);
 /// Collective. The largest |f| in the cells at twenty times between 0 and end; 0 without a force.
 Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end);
 
-/// Collective. The largest angle, in degrees, by which a patch turns between two of its faces that
-/// share a point; angles of more than 30 degrees are edges between planes and do not count.
-Real curvature(const Patch& patch, const Mesh& mesh);
-
 /// Collective. Mean edge (mesh/gap.hpp) of the cells with their centre in the shape; of all cells
 /// where there are none.
 Real mean_edge(const shapes::Shape& shape, const Mesh& mesh);

@@ -44,7 +44,8 @@ void BalancedJumpForce::add_irregular(const GradientStencil& stencil, const Band
       whole_[P] += (1 / mesh_.V[P]) * rest;
       whole_[N] -= (1 / mesh_.V[N]) * rest;
     } else if (stencil.given[f - mesh_.n_internal] == 0 && !mesh_.brick(P)) {
-      whole_[P] += (dot(at_faces_[i], mesh_.d[f]) / mesh_.V[P]) * mesh_.Sf[f];
+      const Vec3 e = stencil.to_boundary(f, mesh_);
+      whole_[P] += (dot(at_faces_[i], e) / mesh_.V[P]) * mesh_.Sf[f];
     }
   }
 }

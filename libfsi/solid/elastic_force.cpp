@@ -20,12 +20,11 @@ Vec3 traction(const SymTensor& tau, const ElasticState& solid, const Mesh& mesh,
 }
 
 /// The vector from the centre of P along which T is continued to boundary face f. It leads to the
-/// centre of the face. For a triangle or tetrahedron at a plane of symmetry only its part along the
-/// plane counts, since n . T . n has no slope across the plane.
+/// centre of the face. At a plane of symmetry only its part along the plane counts, since n . T . n
+/// has no slope across the plane.
 Vec3 to_face(const ElasticState& solid, const Mesh& mesh, Index f) {
   const Vec3 d = mesh.d[f];
-  if (solid.mirror == nullptr || !solid.mirror->has(f, mesh) || !mesh.simplex(mesh.owner[f]))
-    return d;
+  if (solid.mirror == nullptr || !solid.mirror->has(f, mesh)) return d;
   const Vec3& S = mesh.Sf[f];
   return d - (dot(d, S) / norm2(S)) * S;
 }

@@ -60,8 +60,9 @@ SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) con
 SymGradient Extension::limited_slope(const CellField<SymGradient>& slope, Index c) const {
   SymGradient mean;
   int n = 0;
-  for (const Index k : mesh_.cell_neighbours[c])
-    if (zone_[k] >= surrounded_zone) mean += slope[k], ++n;
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3&, const Vec3& plane) {
+    if (zone_[k] >= surrounded_zone) mean += image(slope[k], plane), ++n;
+  });
   const SymGradient& g = slope[c];
   const Real square = product(g, g);
   if (n == 0 || !(square > 0)) return {};
@@ -85,11 +86,12 @@ void Extension::linear(CellField<SymTensor>& T, CellField<SymGradient>& slope) {
       SymTensor sum;
       SymGradient slopes;
       Real weights = 0;
-      for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
+      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
         if (!rings_.within(i - 1, k)) return;
         const Real w = 1 / norm2(r);
-        sum += w * (T[k] - along(slope[k], r));
-        slopes += w * slope[k];
+        const SymGradient of_k = image(slope[k], n);
+        sum += w * (image(T[k], n) - along(of_k, r));
+        slopes += w * of_k;
         weights += w;
       });
       T[c] = (1 / weights) * sum;
@@ -133,9 +135,9 @@ void Extension::constant(CellField<SymTensor>& T, const CellField<Real>& where) 
       if (where[c] == 0) continue;
       SymTensor sum;
       Real weights = 0;
-      for_vertex_neighbours(c, mesh_, [&](Index k, const Vec3& r) {
+      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
         if (!rings_.within(i - 1, k) || where[k] == 0) return;
-        sum += (1 / norm2(r)) * T[k];
+        sum += (1 / norm2(r)) * image(T[k], n);
         weights += 1 / norm2(r);
       });
       if (weights > 0) T[c] = (1 / weights) * sum;

@@ -28,6 +28,12 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
   return d.x * g.x + d.y * g.y + d.z * g.z;
 }
 
+/// Image of the gradient of a tensor field in a plane with unit normal n.
+inline SymGradient image(const SymGradient& g, const Vec3& n) {
+  SymGradient of{image(g.x, n), image(g.y, n), image(g.z, n)};
+  return of += outer(-2 * along(of, n), n);
+}
+
 /// The slope Gamma of T by a least-squares fit: T rises by `rise` over the vector r, with the
 /// weight 1 / |r|^2.
 struct TensorFit {

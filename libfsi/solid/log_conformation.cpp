@@ -62,6 +62,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
   const auto known = [&](Index c) { return moving[c] >= alpha_known; };
   const auto inner = [&](Index c) { return extension_.inner(c); };
   const auto u_at = [&](Index f) -> const Vec3* {
+    if (extension_.symmetry().has(f, mesh_)) return nullptr;  // the cell has an image there
     const Index b = f - mesh_.n_internal;
     return snapshot.contact && snapshot.contact->touched[b] ? &snapshot.contact->u_b[b] : nullptr;
   };
@@ -72,8 +73,10 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
     return bound_by_work(L, excess, psi[c] + (dt / 2) * log_rate(L, psi[c]));
   };
   const auto of_own_side = [&](Index c) {
-    const Tensor L = one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c);
-    return remove_normal_divergence(L, alpha, mesh_, c);
+    const SymmetryFaces& symmetry = extension_.symmetry();
+    const Tensor L =
+        one_sided_gradient(snapshot.L, snapshot.u, known, inner, u_at, mesh_, c, symmetry);
+    return remove_normal_divergence(L, alpha, mesh_, c, symmetry);
   };
   L_.clear();
   for (const Index c : known_.core()) {

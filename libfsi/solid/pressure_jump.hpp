@@ -4,6 +4,7 @@
 #include <span>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::solid {
 
@@ -20,6 +21,7 @@ namespace fsi::solid {
 /// velocities and fluxes would differ by dt s / (rho h).
 void advect_pressure_jump(CellField<Real>& p, const CellField<Real>& alpha_mid,
                           const CellField<Real>& alpha, const CellField<SymTensor>& T, Real G,
-                          const Mesh& mesh, std::span<const Index> cells);
+                          const Mesh& mesh, std::span<const Index> cells,
+                          const SymmetryFaces& symmetry = {});
 
 }  // namespace fsi::solid

@@ -60,8 +60,9 @@ inline Tensor flux_consistent_gradient(const FlowSnapshot& snapshot, const Mesh&
 /// Derivatives along the surface are continuous, and div u = 0 gives the normal one. It is L itself
 /// if alpha is symmetric about the cell.
 inline Tensor remove_normal_divergence(const Tensor& L, const CellField<Real>& alpha,
-                                       const Mesh& mesh, Index c) {
-  const Vec3 n = inward_normal(alpha, mesh, c);
+                                       const Mesh& mesh, Index c,
+                                       const SymmetryFaces& symmetry = {}) {
+  const Vec3 n = inward_normal(alpha, mesh, c, symmetry);
   return n == Vec3{} ? L : L + (-trace(L)) * outer(n, n);
 }
 

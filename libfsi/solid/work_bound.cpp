@@ -18,8 +18,9 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
   const auto& [alpha_f, normal, fraction] = *snapshot.cuts;
   Tensor sum;
   Real volume = 0;
-  const auto add = [&](Index f, Real w, Real mean, const Vec3& rise, const Tensor& L_f) {
-    const Vec3 S = mesh.Sf[f], d = mesh.d[f], e = rise - dot(L_f, d);
+  const auto add = [&](Index f, Real w, Real mean, const Vec3& d, const Vec3& rise,
+                       const Tensor& L_f) {
+    const Vec3 S = mesh.Sf[f], e = rise - dot(L_f, d);
     sum += (w * alpha_f[f]) * outer(e, S) +
            (w * (mean - alpha_f[f]) * dot(e, S)) * outer(normal[f], normal[f]);
     if (snapshot.in_series != 1 && f < mesh.n_internal)
@@ -30,13 +31,19 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
     const Index P = mesh.owner[f];
     if (f >= mesh.n_internal) {
       const Index b = f - mesh.n_internal;
-      if (snapshot.contact != nullptr && snapshot.contact->touched[b] != 0)
-        add(f, 1, fraction[P], snapshot.contact->u_b[b] - snapshot.u[P], L);
+      if (extension.symmetry().has(f, mesh)) {  // the face to the image of the cell
+        const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+        const Tensor image_of_L = image(snapshot.L[c], n);
+        add(f, 0.5, fraction[P], (2 * dot(mesh.d[f], n)) * n,
+            image(snapshot.u[P], n) - snapshot.u[P],
+            extension.inner(c) ? 0.5 * (L + image_of_L) : L);
+      } else if (snapshot.contact != nullptr && snapshot.contact->touched[b] != 0)
+        add(f, 1, fraction[P], mesh.d[f], snapshot.contact->u_b[b] - snapshot.u[P], L);
       continue;
     }
     const Index N = mesh.neighbour[f], other = P == c ? N : P;
     const Real part = P == c ? 1 - snapshot.weights.lambda[f] : snapshot.weights.lambda[f];
-    add(f, alpha[other] >= alpha_known ? part : 1, (fraction[P] + fraction[N]) / 2,
+    add(f, alpha[other] >= alpha_known ? part : 1, (fraction[P] + fraction[N]) / 2, mesh.d[f],
         snapshot.u[N] - snapshot.u[P], extension.inner(other) ? 0.5 * (L + snapshot.L[other]) : L);
   }
   return volume > 0 ? (1 / volume) * sum : Tensor{};

@@ -53,8 +53,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       law(solid.law),
       touched(mesh),
       interface(mesh),
-      reconstruct_scratch(mesh),
-      advect_scratch(mesh),
+      reconstruct_scratch(mesh, {filled.cut_by.faces}),
+      advect_scratch(mesh, {filled.cut_by.faces}),
       band(mesh),
       kinematics(make(mesh, solid.kinematics, {filled.cut_by.faces})),
       elastic_force(mesh, weights, G),
@@ -215,8 +215,9 @@ void Body::update_B() {
     mesh.halo.update(*T_of_law, band.listed());
   }
   if (extended()) {
-    vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces());
-    vof::face_normal(normal_f, alpha, interface, mesh, band.faces());
+    vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces(),
+                       reconstruct_scratch.symmetry);
+    vof::face_normal(normal_f, alpha, interface, mesh, band.faces(), reconstruct_scratch.symmetry);
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }

@@ -102,7 +102,7 @@ void Solver::separate_bodies() {
 void advect_pressure_jump(CellField<Real>& p, const Body& body) {
   if (!body.advects_pressure_jump()) return;
   solid::advect_pressure_jump(p, body.alpha_mid, body.alpha, body.T(), body.G, body.mesh,
-                              body.band.cells());
+                              body.band.cells(), body.reconstruct_scratch.symmetry);
   body.mesh.halo.update(p);
 }
 

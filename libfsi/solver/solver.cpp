@@ -17,6 +17,16 @@ Method pressure_method(const Mesh& mesh) {
   return mesh.dim == 2 && mesh.n_global <= small ? Method::direct : Method::multigrid;
 }
 
+/// The planes about which the pressure is symmetric. A force of the driver may point through them.
+std::vector<bool> mirrors_of(const std::vector<Condition>& conditions, bool driven,
+                             const Mesh& mesh) {
+  constexpr Real flat = 0.1;  // degrees
+  std::vector<bool> mirrors = patches_where(conditions, lets_slip);
+  for (std::size_t i = 0; i < mirrors.size(); ++i)
+    mirrors[i] = mirrors[i] && !driven && curvature(mesh.patches[i], mesh) <= flat;
+  return mirrors;
+}
+
 /// Velocities of the boundary without a pace of their own, and the force.
 std::vector<OfPlaceAndTime> over_time(const std::vector<Condition>& conditions,
                                       const OfPlaceAndTime::Function& force, const Mesh& mesh) {
@@ -82,7 +92,8 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       L_f_(weights_.irregular.size()),
       openings_(mesh, conditions_, physics.rho),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
-                  setup.non_orthogonal_correctors),
+                  setup.non_orthogonal_correctors,
+                  mirrors_of(conditions_, static_cast<bool>(driving_force_), mesh)),
       loads_(mesh, projection_, openings_, physics.rho),
       viscous_pressure_(mesh, weights_),
       bulk_friction_(mesh, projection_, openings_),

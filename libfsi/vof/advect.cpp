@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/band.hpp"
@@ -79,7 +80,8 @@ void interface_velocity(const Interface& interface, const CellField<Vec3>& u, co
                         AdvectScratch& s) {
   for (const Index c : interface.cells) {
     const Piece& p = interface.piece[c];
-    const Tensor L = slope_at(u, inverse_moments(mesh, c), mesh, c);
+    const SymTensor fit = inverse_moments(mesh, c, s.symmetry);
+    const Tensor L = slope_at(u, fit, mesh, c, s.symmetry);
     s.velocity[c] = u[c] + dot(L, p.centre - mesh.C[c]);
   }
   mesh.halo.update(s.velocity);
@@ -175,8 +177,9 @@ void add_divergence(Sum& sum, const CellField<Real>& alpha, const FaceField<Real
 
 }  // namespace
 
-AdvectScratch::AdvectScratch(const Mesh& mesh)
-    : solid(mesh),
+AdvectScratch::AdvectScratch(const Mesh& mesh, SymmetryFaces planes)
+    : symmetry(std::move(planes)),
+      solid(mesh),
       rim(faces_between_ranks(mesh)),
       face_marked(static_cast<std::size_t>(mesh.n_faces), none),
       cell_marked(static_cast<std::size_t>(mesh.n_owned), 0),

@@ -30,9 +30,10 @@ struct AdvectReport {
 
 /// Scratch of `advect`, made once. After a step it holds the solid's volume flux.
 struct AdvectScratch {
-  /// Collective. mesh must outlive it.
-  explicit AdvectScratch(const Mesh& mesh);
+  /// Collective. planes: of symmetry, beyond which the flow has an image. mesh must outlive it.
+  explicit AdvectScratch(const Mesh& mesh, SymmetryFaces planes = {});
 
+  SymmetryFaces symmetry;    ///< these planes
   FaceField<Real> solid;     ///< volume of solid through each face in the last step, from P to N
   std::vector<Index> faces;  ///< faces whose flux is not alpha phi dt with alpha 0 or 1
   std::vector<Index> full;   ///< other faces inside the solid

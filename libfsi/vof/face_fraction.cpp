@@ -75,12 +75,16 @@ Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, const Bend& 
 
 void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
-                   std::span<const Index> faces) {
+                   std::span<const Index> faces, const SymmetryFaces& symmetry) {
   for (const Index f : faces) {
     const Index P = mesh.owner[f];
     if (f >= mesh.n_internal) {
       const Piece& p = interface.piece[P];
-      alpha_f[f] = p.area > 0 ? swept_part(mesh, f, P, p, dot(p.n_hat, mesh.d[f]), 0) : alpha[P];
+      const Vec3& S = mesh.Sf[f];
+      const bool mirror = symmetry.has(f, mesh);
+      const Vec3 d = mirror ? (dot(mesh.d[f], S) / norm2(S)) * S : mesh.d[f];
+      const Real to_face = dot(p.n_hat, d), beyond_it = mirror ? -to_face : 0;
+      alpha_f[f] = p.area > 0 ? swept_part(mesh, f, P, p, to_face, beyond_it) : alpha[P];
       continue;
     }
     const Index N = mesh.neighbour[f];
@@ -164,12 +168,18 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
 }
 
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
-                 const Mesh& mesh, std::span<const Index> faces) {
+                 const Mesh& mesh, std::span<const Index> faces, const SymmetryFaces& symmetry) {
+  constexpr Real opposed = 0.1;
+  const auto mean = [](const Vec3& sum) {
+    const Real size = norm(sum);
+    return size > opposed ? sum / size : Vec3{};
+  };
   for (const Index f : faces) {
     const Index P = mesh.owner[f];
     if (f >= mesh.n_internal) {
       const Piece& p = interface.piece[P];
-      normal[f] = p.area > 0 ? p.n_hat : Vec3{};
+      const Vec3 n = p.area > 0 ? p.n_hat : Vec3{};
+      normal[f] = symmetry.has(f, mesh) ? mean(n + image(n, mesh.Sf[f] / norm(mesh.Sf[f]))) : n;
       continue;
     }
     const Index N = mesh.neighbour[f];
@@ -179,10 +189,7 @@ void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const In
       normal[f] = alpha[P] == alpha[N] ? Vec3{} : (out / norm(mesh.Sf[f])) * mesh.Sf[f];
       continue;
     }
-    constexpr Real opposed = 0.1;
-    const Vec3 sum = p.n_hat + q.n_hat;
-    const Real size = norm(sum);
-    normal[f] = size > opposed ? sum / size : Vec3{};
+    normal[f] = mean(p.n_hat + q.n_hat);
   }
 }
 

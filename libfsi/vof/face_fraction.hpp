@@ -6,6 +6,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/vof/bend.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
@@ -26,11 +27,12 @@ Real swept_part(const Mesh& mesh, Index f, Index c, const Piece& p, const Bend& 
 /// face sweeps along d. A flux over this distance passes through this prism. alpha_f follows from
 /// the plane of a cell, and is the mean of both if both cells have one. Without planes it is
 /// (1 - lambda) alpha_P + lambda alpha_N: any interface then lies on the face. For a boundary face
-/// it is the part between the cell's centre and the face, without a plane alpha of the cell. Sets
-/// the listed faces. alpha, interface: owned and halo.
+/// it is the part between the cell's centre and the face, on a plane of symmetry between the centre
+/// and its image, without a plane alpha of the cell. Sets the listed faces. alpha, interface: owned
+/// and halo.
 void face_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const Interface& interface, const FaceWeights& weights, const Mesh& mesh,
-                   std::span<const Index> faces);
+                   std::span<const Index> faces, const SymmetryFaces& symmetry = {});
 
 /// The part of solid on the line between the centres of the two cells of a face, each half by the
 /// plane of its own cell. Without planes any interface lies on the face. Over a flat surface, the
@@ -56,8 +58,10 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
 /// Unit normal m out of the solid at the listed faces, the mean of the planes of both cells; zero
 /// between opposed ones. Without planes it is that of the face if the surface lies in the face,
-/// else zero. Boundary faces: that of the cell's plane.
+/// else zero. Boundary faces: that of the cell's plane; on a plane of symmetry the mean with its
+/// image.
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
-                 const Mesh& mesh, std::span<const Index> faces);
+                 const Mesh& mesh, std::span<const Index> faces,
+                 const SymmetryFaces& symmetry = {});
 
 }  // namespace fsi::vof

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/field/band.hpp"
@@ -38,8 +39,8 @@ void first_normals(const CellField<Real>& alpha, const Mesh& mesh, ReconstructSc
   s.fit.resize(s.cells.size()), s.normal.resize(s.cells.size());
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
-    s.fit[i] = inverse_moments(mesh, c);
-    const Vec3 g = slope_at(alpha, s.fit[i], mesh, c);
+    s.fit[i] = inverse_moments(mesh, c, s.symmetry);
+    const Vec3 g = slope_at(alpha, s.fit[i], mesh, c, s.symmetry);
     const Real size = norm(g);
     s.normal[i] = size * cell_size(mesh, c) > interface_eps * degenerate ? g / -size : Vec3{};
   }
@@ -71,14 +72,15 @@ void reconstruct_distance(const Interface& interface, const Mesh& mesh, Reconstr
       continue;
     }
     Real sum = 0, total = 0;
-    for_vertex_images(c, mesh, [&](Index k, const Vec3& t) {
+    const auto add = [&](Index k, const Vec3& r, const Vec3& n) {
       const Piece& p = interface.piece[k];
       if (!(p.area > 0)) return;
-      const Vec3 d = x - p.centre - t;
-      const Real to_plane = dot(p.n_hat, d);
+      const Vec3 d = -r - image(p.centre - mesh.C[k], n);
+      const Real to_plane = dot(image(p.n_hat, n), d);
       const Real w = to_plane * to_plane / norm2(d);
       sum += w * to_plane, total += w;
-    });
+    };
+    for_neighbours_and_images(c, s.symmetry, mesh, add);
     s.distance[c] = total > 0 ? sum / total : 0;
   }
   mesh.halo.update(s.distance);
@@ -96,16 +98,17 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
     if (norm2(s.normal[i]) == 0) continue;
-    const Vec3 g = slope_at(s.distance, s.fit[i], mesh, c);
+    const Vec3 g = slope_at(s.distance, s.fit[i], mesh, c, s.symmetry);
     const Real size = norm(g);
     if (!(size > degenerate)) continue;
     const Vec3 n = g / size;
     Real bent = 0;
     int count = 0;
-    for (const Index k : mesh.cell_neighbours[c]) {
+    const auto add = [&](Index k, const Vec3& /*r*/, const Vec3& plane) {
       const Piece& p = interface.piece[k];
-      if (p.area > 0) bent += 1 - dot(p.n_hat, s.normal[i]), ++count;
-    }
+      if (p.area > 0) bent += 1 - dot(image(p.n_hat, plane), s.normal[i]), ++count;
+    };
+    for_neighbours_and_images(c, s.symmetry, mesh, add);
     sums[0].add(1 - dot(n, s.normal[i])), sums[1].add(count > 0 ? bent / count : 0), sums[2].add(1);
     s.normal[i] = n;
   }
@@ -117,8 +120,9 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
 
 }  // namespace
 
-ReconstructScratch::ReconstructScratch(const Mesh& mesh)
-    : halo_neighbours(cells_around_halo(mesh)),
+ReconstructScratch::ReconstructScratch(const Mesh& mesh, SymmetryFaces planes)
+    : symmetry(std::move(planes)),
+      halo_neighbours(cells_around_halo(mesh)),
       distance(mesh),
       marked(static_cast<std::size_t>(mesh.n_owned), 0),
       cell(mesh.dim) {}

@@ -8,6 +8,7 @@
 #include "libfsi/field/fraction.hpp"
 #include "libfsi/geometry/cut.hpp"
 #include "libfsi/mesh/mesh.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::vof {
 
@@ -36,9 +37,10 @@ struct ReconstructAccuracy {
 
 /// Scratch of `reconstruct`, made once; grows with the interface, never shrinks.
 struct ReconstructScratch {
-  /// mesh must outlive it.
-  explicit ReconstructScratch(const Mesh& mesh);
+  /// planes: of symmetry, beyond which the solid has an image. mesh must outlive it.
+  explicit ReconstructScratch(const Mesh& mesh, SymmetryFaces planes = {});
 
+  SymmetryFaces symmetry;            ///< these planes
   Csr halo_neighbours;               ///< [n_cells - n_owned] owned cells that touch a halo cell
   CellField<Real> distance;          ///< reconstructed distance near the interface
   std::vector<Index> cells;          ///< owned cells with alpha between the limits
@@ -52,7 +54,8 @@ struct ReconstructScratch {
 /// Collective. plicRDF [Scheufler19]: normals from a least-squares gradient of alpha, then rounds
 /// of: cut the cells, reconstruct the signed distance to the planes around them, take its gradient
 /// for normals. The result depends on alpha alone, not on the steps before. On the number of ranks
-/// it depends by rounding only. alpha: owned and halo set. On return owned cells and halo of
+/// it depends by rounding only. In planes of symmetry cells and planes have images (`for_images`).
+/// alpha: owned and halo set. On return owned cells and halo of
 /// `interface` are set; cells where the gradient of alpha vanishes have no plane.
 void reconstruct(Interface& interface, const CellField<Real>& alpha, const Mesh& mesh,
                  ReconstructScratch& scratch, const ReconstructAccuracy& accuracy = {});

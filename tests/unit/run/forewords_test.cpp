@@ -1,6 +1,7 @@
 // What a run tells before its first step.
 
 #include "libfsi/run/forewords.hpp"
+#include "libfsi/mesh/figures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,99 @@
+// Half of a symmetric scene, with a plane of symmetry, against the whole: a channel along x between
+// walls at y = 0 and 1, periodic, and its lower half.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "libfsi/core/parallel.hpp"
+#include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
+
+namespace fsi {
+namespace {
+
+constexpr Index n = 16;  // cells across
+constexpr Real mu = 0.05, dt = 0.005;
+constexpr int steps = 20;
+
+Mesh channel(Index across) {
+  return test::read_box({.n = {2 * n, across, 0},
+                         .length = {2, static_cast<Real>(across) / n, 1},
+                         .periodic = {"left", "right"}});
+}
+
+/// A plug that the walls slow down, so that u_y is not 0.
+Vec3 start(const Vec3& x) {
+  return {1 + 0.2 * std::sin(std::numbers::pi * x.x) * std::cos(2 * std::numbers::pi * x.y),
+          0.1 * std::sin(2 * std::numbers::pi * x.y), 0};
+}
+
+struct Pair {
+  explicit Pair(const Mesh& whole, const Mesh& half)
+      : of_whole(whole, {.rho = 1, .mu_f = mu},
+                 {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}}),
+        of_half(half, {.rho = 1, .mu_f = mu},
+                {.conditions = {{"bottom", Wall{}}, {"top", Slip{}}}}) {
+    of_whole.start(start), of_half.start(start);
+    std::map<std::pair<long, long>, Index> at;
+    const auto place = [](const Vec3& x) {
+      return std::pair{std::lround(1e6 * x.x), std::lround(1e6 * x.y)};
+    };
+    for (Index c = 0; c < whole.n_cells; ++c) at[place(whole.C[c])] = c;
+    for (Index c = 0; c < half.n_owned; ++c) twin.push_back(at.at(place(half.C[c])));
+  }
+  void run() {
+    for (int i = 0; i < steps; ++i) of_whole.step(dt), of_half.step(dt);
+  }
+  /// The largest difference of the velocities.
+  Real apart() const {
+    Real most = 0;
+    for (std::size_t c = 0; c < twin.size(); ++c)
+      most = std::max(most,
+                      norm(of_whole.state().u[twin[c]] - of_half.state().u[static_cast<Index>(c)]));
+    return global_max(most);
+  }
+  Solver of_whole, of_half;
+  std::vector<Index> twin;  // cells of the whole
+};
+
+TEST(Half, OfAFlowIsThatOfTheWhole) {
+  const Mesh whole = channel(n), half = channel(n / 2);
+  Pair pair(whole, half);
+  pair.run();
+  EXPECT_LT(pair.apart(), 1e-8);
+}
+
+TEST(Half, OfASolidIsThatOfTheWhole) {
+  const Mesh whole = channel(n), half = channel(n / 2);
+  for (const bool memory : {true, false}) {
+    Pair pair(whole, half);
+    for (Solver* solver : {&pair.of_whole, &pair.of_half})
+      solver->put_solid({.shape = shapes::translate(shapes::sphere(0.29), {0.6, 0.5, 0}),
+                         .G = 1,
+                         .mu = mu,
+                         .memory = memory});
+    pair.run();
+    const Body &of_whole = *pair.of_whole.body(), &of_half = *pair.of_half.body();
+    Real alpha = 0, B = 0;
+    for (std::size_t c = 0; c < pair.twin.size(); ++c) {
+      const Index h = static_cast<Index>(c), w = pair.twin[c];
+      alpha = std::max(alpha, std::abs(of_whole.alpha[w] - of_half.alpha[h]));
+      B = std::max(B, std::abs(of_whole.B[w].xx - of_half.B[h].xx) +
+                          std::abs(of_whole.B[w].xy - of_half.B[h].xy));
+    }
+    std::printf("memory %d: u %.1e, alpha %.1e, B %.1e\n", memory, pair.apart(), global_max(alpha),
+                global_max(B));
+    EXPECT_LT(pair.apart(), 1e-4);
+    EXPECT_LT(global_max(alpha), 1e-4);
+    EXPECT_LT(global_max(B), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace fsi
