@@ -10,6 +10,10 @@
 namespace fsi {
 namespace {
 
+/// A part of a solid's volume. So much of it may go through the boundary by rounding, as through
+/// planes of symmetry.
+constexpr Real rounding_out = 1e-12;
+
 /// [n_boundary] 1 on the faces of these patches, else 0.
 std::vector<char> on_faces(const std::vector<Patch>& patches, const Mesh& mesh) {
   std::vector<char> is(static_cast<std::size_t>(mesh.n_boundary()), 0);
@@ -239,7 +243,7 @@ void Body::hold_shape() {
   const vof::ShapeMap shape_map{
       .shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust};
   // It would do so where an opening or the mesh has cut the solid, too.
-  if (volume_out > 0 || cut_by_mesh) {
+  if (volume_out > rounding_out * filled.volume || cut_by_mesh) {
     vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count, at_openings);
     for (std::size_t i = 0; i < trust.size(); ++i)
       if (left_out[m.cells()[i]] > 0) trust[i] = 0;
@@ -262,7 +266,7 @@ bool Body::count_out() {
   Sum out;
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) out.add(advect_scratch.solid[f]);
   volume_out += out.total();
-  if (volume_out <= 1e-12 * filled.volume || gone != 0) return false;
+  if (volume_out <= rounding_out * filled.volume || gone != 0) return false;
   Sum left, taken, half_solid;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     specks[c] = 0;
