@@ -31,6 +31,7 @@ inline Tensor image(const Tensor& g, const Vec3& n) {
 
 /// Image of a tensor: R T R.
 inline SymTensor image(const SymTensor& T, const Vec3& n) {
+  if (n == Vec3{}) return T;                              // a neighbour, as most are
   const Vec3 t = dot(T, n), s = 2 * (dot(n, t) * n - t);  // R T R = T + s n + n s
   return {T.xx + 2 * s.x * n.x, T.xy + s.x * n.y + n.x * s.y, T.xz + s.x * n.z + n.x * s.z,
           T.yy + 2 * s.y * n.y, T.yz + s.y * n.z + n.y * s.z, T.zz + 2 * s.z * n.z};

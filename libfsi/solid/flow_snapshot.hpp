@@ -30,6 +30,7 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
 
 /// Image of the gradient of a tensor field in a plane with unit normal n.
 inline SymGradient image(const SymGradient& g, const Vec3& n) {
+  if (n == Vec3{}) return g;  // a neighbour, as most are
   SymGradient of{image(g.x, n), image(g.y, n), image(g.z, n)};
   return of += outer(-2 * along(of, n), n);
 }
