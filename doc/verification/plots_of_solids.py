@@ -94,6 +94,15 @@ def mesh_quality():
     return figure
 
 
+def migration():
+    figure, ax = panel()
+    lines(ax, grouped((row[0] + how, first(row[1]), first(row[column]))
+                      for column, how in ((2, ""), (3, ", mesh along")) for row in rows("migration")),
+          "cells per diameter of the tube", "way towards the axis at t = 3", at=(16, 24), log="")
+    legend(figure, ax, 2)
+    return figure
+
+
 def paper_mesh():
     figure, left, right = panels()
     found = [(re.sub(r"^\d+, |, fine = [\d.]+|(, )?half of the pipe", "", row[0]) or "at rest",
@@ -292,6 +301,6 @@ def torus():
     return figure
 
 
-PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, lodging, mesh_quality, paper_mesh,
+PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, lodging, mesh_quality, migration, paper_mesh,
             paper_throat, passing_discs, reference_map, settling, shape, shear, slab, stability,
             stiff, stiff_rings, torus)

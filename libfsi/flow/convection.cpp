@@ -69,6 +69,16 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
   }
 }
 
+void add_kinks(CellField<Vec3>& conv, const FaceField<Real>& phi, const Kinks& kinks,
+               const Mesh& mesh) {
+  for (std::size_t i = 0; i < kinks.faces.size(); ++i) {
+    const Index f = kinks.faces[i];
+    const Vec3 flux = phi[f] * kinks.excess[i];
+    conv[mesh.owner[f]] += flux;
+    conv[mesh.neighbour[f]] -= flux;
+  }
+}
+
 void convection_upwind(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
                        const BoundaryField<Vec3>& u_b, const CellField<Tensor>& L,
                        const std::vector<Tensor>& L_f, const FaceWeights& weights, const Mesh& mesh,

@@ -6,6 +6,7 @@
 
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/kinks.hpp"
 
 namespace fsi::flow {
 
@@ -39,6 +40,12 @@ Convection convection_of(const std::string& name);
 void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellField<Vec3>& u,
                 const BoundaryField<Vec3>& u_b, const std::vector<Tensor>& L_f,
                 const FaceWeights& weights, const Mesh& mesh, bool symmetric);
+
+/// conv += the part of `linear` at faces between whose cells u has a kink,
+///   u_f = (u_P + u_N) / 2 + excess_f.
+/// Without it a kink that passes the mesh leaves an error of first order in its velocity.
+void add_kinks(CellField<Vec3>& conv, const FaceField<Real>& phi, const Kinks& kinks,
+               const Mesh& mesh);
 
 /// The upwind schemes. U and D are the cells up- and downwind, L_U is the gradient of U (in
 /// triangles and tetrahedra L_f), and u_lin the linear value without damping. In each component

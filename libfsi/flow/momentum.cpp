@@ -189,6 +189,8 @@ void Momentum::add_convection(const CellField<Vec3>& u, const MomentumTerms& ter
   else
     convection(last, terms.phi, u, terms.u_b, terms.L_f, weights_, mesh_,
                scheme_ == Convection::symmetric);
+  if (terms.kinks != nullptr && scheme_ == Convection::linear)
+    add_kinks(last, terms.phi, *terms.kinks, mesh_);
   for (Index c = 0; c < mesh_.n_owned; ++c)
     if (terms.rho)
       subtract(c, w[0] * last[c]);

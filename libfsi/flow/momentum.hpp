@@ -53,6 +53,8 @@ struct MomentumTerms {
   Real explicit_courant = std::numeric_limits<Real>::max();
   /// Irregular faces with a one-sided L_f beside a surface. If there may be such faces, `stiff`.
   std::span<const Index> one_sided{};
+  /// Kinks of u at the surfaces of solids, read by linear convection; null: none.
+  const Kinks* kinks = nullptr;
   const WallParabola* parabola = nullptr;  ///< of the walls; none: their derivative by differences
 };
 

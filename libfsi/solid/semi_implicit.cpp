@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "libfsi/solid/extension.hpp"
+#include "libfsi/solid/velocity_kink.hpp"
 
 namespace fsi::solid {
 namespace {
@@ -99,7 +100,7 @@ void SemiImplicitElasticity::apply(FaceField<Real>& kappa, FaceField<Real>& stif
   mesh_.halo.update(force);
 }
 
-// b u_f . grad (u_N - u_P), u_f = (u_P + u_N) / 2, b the part that the Courant number at f allows
+// b s u_f . grad (u_N - u_P), u_f = (u_P + u_N) / 2, b the part that the Courant number at f allows
 Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) const {
   constexpr Real whole = 0.3, none = 0.5;
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
@@ -108,7 +109,10 @@ Vec3 SemiImplicitElasticity::change_of_rise(const ElasticTerms& solid, Index f) 
   const Real across = norm(u - (along / norm(d)) * d);
   const Real courant = solid.dt * (std::abs(along) + across) / norm(d);
   const Real part = std::clamp((none - courant) / (none - whole), Real{0}, Real{1});
-  return part * dot(solid.L[N] + -1.0 * solid.L[P], u);
+  // L_N - L_P is half the jump of L across the surface, but for one-sided gradients.
+  const bool one_sided = zone_.has(P) || zone_.has(N);
+  const Real s = !one_sided && crosses(solid.fraction, f, mesh_) ? 2 : 1;
+  return (s * part) * dot(solid.L[N] + -1.0 * solid.L[P], u);
 }
 
 Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights,

@@ -59,6 +59,9 @@ struct ElasticTerms {
 /// 0, a ring turns too far (doc/notebook/2026-11-27-along-the-path.md). The part in b is explicit,
 /// and unstable where a stiff body moves by half a cell in a step. b is 1 up to the Courant number
 /// 0.3 of the body, and falls to 0 at 0.5. At faces of the boundary b = 0.
+/// The rise u_N - u_P of a face changes by dt (L_N - L_P) . u along the path. Where the surface
+/// passes between the cells, the kink moves on, and the quasi-Green gradients on both sides differ
+/// by half of it (velocity_kink.hpp). There, but in the simplex zone, it is twice as much.
 ///
 ///   div(e (grad u^n - avg L^n)),   e = |d| (rho G alpha_f lambda_B)^(1/2) - alpha_f mu_s, >= 0
 ///

@@ -7,6 +7,7 @@
 
 #include "libfsi/solid/pressure_jump.hpp"
 #include "libfsi/solid/solenoidal.hpp"
+#include "libfsi/solid/velocity_kink.hpp"
 #include "libfsi/solver/solver.hpp"
 #include "libfsi/vof/motion.hpp"
 
@@ -112,6 +113,7 @@ void Solver::clear_forces() {
   rhie_chow_source_.fill(0);
   interface_faces_.clear();
   interface_L_f_.clear();
+  kinks_.clear();
   for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_, stiffness_);
 }
 
@@ -330,7 +332,12 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffnes
                                CellField<Vec3>& force, Real dt) {
   const Profile::Call call(profile_, calls_.add_semi_implicit);
   const FlowAround flow = flow_around();
-  for (Body& body : bodies_) fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
+  for (Body& body : bodies_) {
+    fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
+    const bool kinked = body.G > 0 || body.mu != physics_.mu_f;
+    if (body.semi_implicit() && kinked)
+      solid::add_kinks(kinks_, {body.alpha_f, body.alpha, L_}, body.zone, body.band, mesh_);
+  }
   if (!stiff_) return;
   stiff_->assign(kappa);
   for (const Body& body : bodies_)

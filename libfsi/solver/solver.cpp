@@ -253,6 +253,7 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
                                   .body = driving_gradient() * axis_,
                                   .explicit_courant = explicit_courant(),
                                   .one_sided = interface_faces_,
+                                  .kinks = &kinks_,
                                   .parabola = wall_parabola_.any() ? &wall_parabola_ : nullptr};
   report_.velocity_iterations = momentum_.predict(u, terms, dt);
 }

@@ -82,7 +82,11 @@ def check_meshes(source, drivers, folder):
     check("cells through its thickness are too few" in said.stderr, "a thin solid is told: " + said.stderr)
     said = run(vessel + ["-solid_kinematics", "left_cauchy_green"], folder)
     check("left_cauchy_green becomes unstable on triangles" in said.stderr, "a warning: " + said.stderr)
+    said = run(vessel + ["-solid_viscosity", "0.51", "-fluid_viscosity", "0.01"], folder)
+    check("beyond 50 times the friction" not in said.stderr, "triangles bear more: " + said.stderr)
     gmsh(source, folder, "box", 12, "-setnumber", "lz", "0")
+    said = run(vessel + ["-solid_viscosity", "0.51", "-fluid_viscosity", "0.01"], folder)
+    check("beyond 50 times the friction" in said.stderr, "a very viscous solid on quads: " + said.stderr)
     run(["gmsh", "-3", os.path.join(source, "meshes", "cylinder.geo"), "-setnumber", "n", "5", "-setnumber",
          "length", "2", "-o", "round.msh"], folder, check=True)
     round_wall = [os.path.join(drivers, "fsi-vessel"), "-mesh", "round.msh", "-output_dir", "out", "-time_end",
