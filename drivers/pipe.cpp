@@ -21,6 +21,7 @@ RunStatus body() {
 
   // 2 mesh and boundary conditions
   const Mesh mesh = read_mesh(setup.mesh);
+  require_period_along_x(mesh);
   setup.flow.conditions = {{"wall", Wall{{-frame, 0, 0}}}};
   for (const Patch& patch : mesh.patches)
     if (patch.name == "symmetry") setup.flow.conditions["symmetry"] = Slip{};

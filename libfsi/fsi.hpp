@@ -19,6 +19,7 @@
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/run/case.hpp"
 #include "libfsi/run/doctor.hpp"
+#include "libfsi/run/forewords.hpp"
 #include "libfsi/run/output.hpp"
 #include "libfsi/run/patches.hpp"
 #include "libfsi/run/prescribed_advection.hpp"

@@ -38,8 +38,34 @@ std::string number(Real value) {
   return {text.data(), end};
 }
 
+/// The options that were given, from all sources: name and value.
+std::vector<std::pair<std::string, std::string>> all_given() {
+  char* text = nullptr;
+  FSI_PETSC(PetscOptionsGetAll(nullptr, &text));
+  std::istringstream stream(text);
+  FSI_PETSC(PetscFree(text));
+  std::vector<std::pair<std::string, std::string>> list;
+  for (std::string word; stream >> word;) {
+    const bool name =
+        word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if (name)
+      list.emplace_back(word.substr(1), "");
+    else if (!list.empty())
+      list.back().second += (list.back().second.empty() ? "" : " ") + word;
+  }
+  return list;
+}
+
+/// Whether the option of that very name was given. PETSc finds -a_b where it looks for -a_2_b.
+bool stands(const std::string& name) {
+  const std::string plain = plain_name(name);
+  return std::ranges::any_of(all_given(),
+                             [&](const auto& one) { return plain_name(one.first) == plain; });
+}
+
 /// The raw text of an option; nothing when it is not given.
 std::optional<std::string> raw(const std::string& name) {
+  if (!stands(name)) return std::nullopt;
   char text[4096] = "";
   PetscBool given = PETSC_FALSE;
   FSI_PETSC(
@@ -100,24 +126,6 @@ std::vector<std::string> unread() {
   FSI_PETSC(PetscOptionsLeftGet(nullptr, &n, &names, &values));
   std::vector<std::string> list(names, names + n);
   FSI_PETSC(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
-  return list;
-}
-
-/// The options that were given, from all sources: name and value.
-std::vector<std::pair<std::string, std::string>> all_given() {
-  char* text = nullptr;
-  FSI_PETSC(PetscOptionsGetAll(nullptr, &text));
-  std::istringstream stream(text);
-  FSI_PETSC(PetscFree(text));
-  std::vector<std::pair<std::string, std::string>> list;
-  for (std::string word; stream >> word;) {
-    const bool name =
-        word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
-    if (name)
-      list.emplace_back(word.substr(1), "");
-    else if (!list.empty())
-      list.back().second += (list.back().second.empty() ? "" : " ") + word;
-  }
   return list;
 }
 
@@ -264,6 +272,7 @@ std::vector<std::string> Options::list(const std::string& name, const std::strin
 }
 
 bool Options::given(const std::string& name) const {
+  if (!stands(name)) return false;
   PetscBool has = PETSC_FALSE;
   FSI_PETSC(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), &has));
   return has == PETSC_TRUE;

@@ -58,7 +58,8 @@ struct Case {
 };
 
 /// Reads the solids: that of the options -solid_..., or those of -solids_NAME_..., one for each
-/// NAME with a shape. Errors: Error{input}, also if a solid has options but no shape.
+/// NAME with a shape. Errors: Error{input}, also if a solid has options but no shape, or an option
+/// is of two solids.
 std::vector<SolidSetup> read_solids(Options& options, const Physics& physics);
 /// Prefixes of the options of solids whose shape is given as "none".
 std::vector<std::string> solids_without_shape(const Options& options);

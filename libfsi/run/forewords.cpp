@@ -83,6 +83,25 @@ Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end
   return global_max(most);
 }
 
+void require_period_along_x(const Mesh& mesh) {
+  const std::vector<Vec3>& laps = mesh.translation;
+  require(
+      laps.size() > 1,
+      "the mesh has no period, and fsi-pipe holds the mean velocity of a periodic pipe: join its "
+      "ends by -mesh_periodic, or take fsi-vessel");
+  constexpr Real aslant = 1e-3;  // the error of the flow is of the order of its square
+  const auto along_x = [](const Vec3& lap) {
+    return norm(lap) > 0 && norm(Vec3{0, lap.y, lap.z}) <= aslant * norm(lap);
+  };
+  const auto shown = [&](Real part) { return std::abs(part) < aslant ? 0 : part; };
+  const Vec3 found = laps[1] / norm(laps[1]);
+  require(
+      std::ranges::any_of(laps, along_x),
+      print("the period of the mesh is along (%.3g, %.3g, %.3g), and fsi-pipe needs one that is "
+            "parallel to x: turn the mesh, or take fsi-vessel",
+            shown(found.x), shown(found.y), shown(found.z)));
+}
+
 Real mean_edge(const shapes::Shape& shape, const Mesh& mesh) {
   std::array<Sum, 4> sums;  // of the edges and the count, within and everywhere
   for (Index c = 0; c < mesh.n_owned; ++c) {

@@ -1,5 +1,5 @@
 #pragma once
-// Figures of a case before its first step.
+// Figures of a case before its first step, and whether its mesh fits.
 
 #include <string>
 
@@ -29,6 +29,10 @@ std::string text_of(const PeakFlow& peak, Real nu);
 
 /// Collective. The largest |f| in the cells at twenty times between 0 and end; 0 without a force.
 Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end);
+
+/// Errors: Error{input} unless the mesh comes again along x, to a thousandth of the way; the
+/// direction in which it does is told.
+void require_period_along_x(const Mesh& mesh);
 
 /// Collective. Mean edge (mesh/gap.hpp) of the cells with their centre in the shape; of all cells
 /// where there are none.

@@ -1,7 +1,6 @@
 #include "libfsi/run/patches.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -13,19 +12,16 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
-#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
 #include "libfsi/flow/planes_at.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/run/patch_names.hpp"
 #include "libfsi/run/table_file.hpp"
 #include "libfsi/run/velocity_table.hpp"
 
 namespace fsi {
 namespace {
-
-const std::vector<std::string> types{"wall",       "symmetry",  "pressure", "resistance",
-                                     "windkessel", "flow_rate", "velocity"};
 
 constexpr Real to_be_given = std::numeric_limits<Real>::quiet_NaN();
 
@@ -36,6 +32,7 @@ class PatchOptions {
       : options_(options), name_("patches_" + patch + "_") {}
 
   Condition read(const std::string& type) {
+    type_ = type;
     if (type == "wall") return wall();
     if (type == "symmetry") return Slip{};
     if (type == "flow_rate") return flow_rate();
@@ -44,17 +41,15 @@ class PatchOptions {
   }
   /// All of them, each once.
   void list() {
-    for (const std::string& type : types) read(type);
+    for (const std::string& type : patch_types) read(type);
   }
-  /// The options that were read, without their prefix.
-  const std::vector<std::string>& keys() const { return keys_; }
   /// The table of a velocity that was read; null: none.
   VelocityTable* table() const { return table_.get(); }
 
  private:
   /// The option of that key.
   std::string of(const std::string& key) {
-    if (std::ranges::count(keys_, key) == 0) keys_.push_back(key);
+    FSI_ASSERT(takes(type_, key));
     return name_ + key;
   }
   Real real(const std::string& key, Real fallback, const std::string& help,
@@ -170,101 +165,16 @@ class PatchOptions {
 
   Options& options_;
   std::string name_;
-  std::vector<std::string> keys_{"type"};
+  std::string type_;
   std::shared_ptr<VelocityTable> table_;
 };
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
-/// "; did you mean ...?", where a word, or what it has before an underscore, is near.
-std::string meant(const std::string& word, const std::vector<std::string>& valid) {
-  const std::string near = nearest_before_underscore(word + "_", valid, 2);
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
-
-std::vector<std::string> names_of(const Mesh& mesh) {
-  std::vector<std::string> names;
-  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
-  return names;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-/// Whether `text` begins with the name of a patch and an underscore; letters of either case, as
-/// PETSc finds its options.
-bool begins_with(const std::string& text, const std::string& patch) {
-  return lower(text).starts_with(lower(patch) + "_");
-}
-
-/// The longest name of a patch that `text` begins with; "" where it is of none.
-std::string patch_of(const std::string& text, const Mesh& mesh) {
-  std::string found;
-  for (const Patch& patch : mesh.patches)
-    if (begins_with(text, patch.name) && patch.name.size() > found.size()) found = patch.name;
-  return found;
-}
-
-/// Errors: Error{input} where an option patches_... is of no patch of the mesh, or a patch has a
-/// name that no option can have.
-void check_patch_names(const Options& options, const Mesh& mesh) {
-  for (const std::string& name : names_of(mesh)) {
-    const auto fits = [](unsigned char c) {
-      return std::isalnum(c) != 0 || c > 127 || c == '_' || c == '-' || c == '.' || c == '+';
-    };
-    require(std::ranges::all_of(name, fits),
-            "patch \"" + name + "\" of the mesh: its name becomes part of options and columns, " +
-                "which take letters, digits and _ - + . only; rename its Physical group in gmsh");
-  }
-  std::map<std::string, std::string> known;  // without capitals
-  for (const std::string& name : names_of(mesh)) {
-    const auto [other, is_new] = known.emplace(lower(name), name);
-    require(is_new, "patches \"" + other->second + "\" and \"" + name +
-                        "\" of the mesh differ by capitals alone, which options do not tell apart; "
-                        "rename one in gmsh");
-  }
-  const std::string has = mesh.patches.empty() ? "the mesh has no patch but periodic ones"
-                                               : "the mesh has: " + joined(names_of(mesh));
-  for (const std::string& name : names_of(mesh))
-    require(!options.given("patches_" + name), "option -patches_" + name +
-                                                   ": a patch takes a type, patches: {" + name +
-                                                   ": {type: ...}}; choose from: " + joined(types));
-  const auto joined_values = options.values();
-  const auto found = joined_values.find("mesh_periodic");
-  const std::string joined_patches = found == joined_values.end() ? "" : found->second;
-  const auto check = [&](const std::vector<std::string>& given, const std::string& end) {
-    for (const std::string& text : given) {
-      if (!patch_of(text + end, mesh).empty()) continue;
-      const std::string option = "option -patches_" + text + end;
-      require(
-          ("," + joined_patches + ",").find("," + text + ",") == std::string::npos || end.empty(),
-          option + ": -mesh_periodic " + joined_patches +
-              " joins this patch with another, and a joined patch takes no condition; " + has);
-      throw Error(ErrorKind::input, option + " is of no patch" +
-                                        (end.empty() ? "" : ": \"" + text + "\" is unknown") +
-                                        "; " + has + meant(text, names_of(mesh)));
-    }
-  };
-  check(options.names("patches_", "_type"), "_type");
-  check(options.names("patches_", ""), "");
-}
-
-/// Errors: Error{input} if a patch has an option that its type does not take.
-void check_keys(const Options& options, const Mesh& mesh, const std::string& patch,
-                const std::string& type, const std::vector<std::string>& keys) {
-  for (const std::string& text : options.names("patches_", "")) {
-    if (patch_of(text, mesh) != patch) continue;
-    const std::string key = text.substr(patch.size() + 1);
-    require(std::ranges::count(keys, lower(key)) > 0,
-            "option -patches_" + text + ": a patch of type " + type + " has no " + key +
-                "; it takes: " + joined(keys) + meant(key, keys));
-  }
+std::string read_type(Options& options, const std::string& patch) {
+  const std::string name = "patches_" + patch + "_type";
+  const bool clear = patch == "wall" || patch == "symmetry";
+  require(clear || options.given(name), "patch \"" + patch + "\" of the mesh has no type: give -" +
+                                            name + "; choose from: " + joined(patch_types));
+  return options.choice(name, clear ? patch : "wall", patch_types, "what stands at this patch");
 }
 
 }  // namespace
@@ -274,17 +184,14 @@ Conditions read_patches(Options& options, const Mesh& mesh) {
     if (rank() == 0 && !notice.empty()) std::fprintf(stderr, "fsi: notice: %s\n", notice.c_str());
   };
   check_patch_names(options, mesh);
+  Options aside(options);
+  std::map<std::string, std::string> types;
+  for (const Patch& patch : mesh.patches) types[patch.name] = read_type(aside, patch.name);
+  check_patch_keys(options, mesh, types);
   Conditions conditions;
   for (const Patch& patch : mesh.patches) {
-    const std::string name = "patches_" + patch.name + "_type";
-    const bool clear = patch.name == "wall" || patch.name == "symmetry";
-    require(clear || options.given(name), "patch \"" + patch.name + "\" of the mesh has no type: " +
-                                              "give -" + name + "; choose from: " + joined(types));
-    const std::string type =
-        options.choice(name, clear ? patch.name : "wall", types, "what stands at this patch");
     PatchOptions of_patch(options, patch.name);
-    conditions[patch.name] = of_patch.read(type);
-    check_keys(options, mesh, patch.name, type, of_patch.keys());
+    conditions[patch.name] = of_patch.read(read_type(options, patch.name));
     if (of_patch.table() != nullptr) tell(of_patch.table()->fit_to(mesh, patch));
   }
   return conditions;
@@ -368,7 +275,7 @@ Mesh read_mesh_and_place(Case& setup, Options& options) {
 }
 
 void list_vessel_options(Options& options) {
-  options.choice("patches_NAME_type", "wall", types, "what stands at patch NAME of the mesh");
+  options.choice("patches_NAME_type", "wall", patch_types, "what stands at patch NAME of the mesh");
   PatchOptions(options, "NAME").list();
   read_path(options, "solid_");
 }

@@ -11,8 +11,8 @@ namespace fsi {
 /// Collective. The condition of each patch of the mesh from its options patches_NAME_type and the
 /// further options of that type (with -help: those of a patch called NAME). A patch called wall or
 /// symmetry needs none. Errors: Error{input} if a patch has no type, or an option is of no patch or
-/// not of the type of its patch. Also if an option that the type needs is missing, or a value or a
-/// file does not fit.
+/// not of the type of its patch, or of two patches. Also if an option that the type needs is
+/// missing, or a value or a file does not fit.
 Conditions read_patches(Options& options, const Mesh& mesh);
 /// The options of `read_patches` and `read_mesh_and_place`, for -help without a mesh.
 void list_vessel_options(Options& options);

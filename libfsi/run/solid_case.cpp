@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "libfsi/core/arguments.hpp"
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
@@ -30,12 +31,27 @@ constexpr std::array<std::array<const char*, 2>, 5> sizes{
      {"radius", "sphere, disk, cylinder, capsule"},
      {"height", "disk, cylinder, capsule"}}};
 
+bool takes(const std::string& shape, const std::string& size) {
+  return std::ranges::any_of(sizes, [&](const auto& known) {
+    return known[0] == size && std::string(known[1]).find(shape) != std::string::npos;
+  });
+}
+
+/// Whether that option, a_minor_radius of `a`, is the radius of another solid, `a_minor`.
+bool is_radius_of_other(const Options& options, const std::string& option) {
+  Options aside(options);
+  if (!option.ends_with("_radius")) return false;
+  const std::string shape = option.substr(0, option.rfind("radius")) + "shape";
+  return options.given(shape) && takes(aside.text(shape, "", ""), "radius");
+}
+
 /// Errors: Error{input} where a size is given that the shape does not take.
 void refuse_sizes_of_others(const Options& options, const std::string& of,
                             const std::string& name) {
   for (const auto& [size, shapes] : sizes)
-    require(std::string(shapes).find(name) != std::string::npos || !options.given(of + size),
-            "option -" + of + size + " is for " + shapes + ", but -" + of + "shape is " + name);
+    require(
+        takes(name, size) || !options.given(of + size) || is_radius_of_other(options, of + size),
+        "option -" + of + size + " is for " + shapes + ", but -" + of + "shape is " + name);
 }
 
 /// The sizes of a shape that no option gives, each with its value.
@@ -50,6 +66,26 @@ std::string sizes_by_default(const Options& options, const std::string& of,
   return list;
 }
 
+/// Errors: Error{input} where a size of one solid can be that of another, a_minor_radius of `a` or
+/// of `a_minor`, and the first one takes it. No other keys end in a key. Where the second one takes
+/// none, only an option that is given is refused.
+void refuse_shared_sizes(const Options& options, const std::vector<std::string>& names) {
+  Options aside(options);
+  const auto shape = [&](const std::string& name) {
+    return aside.text("solids_" + name + "_shape", "", "");
+  };
+  for (const std::string& one : names)
+    for (const std::string& other : names)
+      for (const char* size : {"minor_radius", "major_radius"}) {
+        const std::string option = "solids_" + one + "_" + size;
+        if (plain_name("solids_" + other + "_radius") != plain_name(option)) continue;
+        require(
+            !takes(shape(one), size) || !(options.given(option) || takes(shape(other), "radius")),
+            "option -" + option + " would be that of solid \"" + one + "\" and of solid \"" +
+                other + "\"; rename one of them");
+      }
+}
+
 /// The shape about the origin, its axis along x. With -help and for "none" every shape's options
 /// are read.
 shapes::Shape undeformed(Options& options, const std::string& of, const std::string& name,
@@ -61,8 +97,9 @@ shapes::Shape undeformed(Options& options, const std::string& of, const std::str
     const Real R = length(options, of + "major_radius", 0.3,
                           "torus: radius of the circle in the middle of its tube");
     const Real r = length(options, of + "minor_radius", 0.1, "torus: radius of its tube");
-    require(r < R, "option -" + of + "minor_radius must be smaller than -" + of + "major_radius");
-    shape = shapes::torus(R, r);
+    require(r < R || name == "none",
+            "option -" + of + "minor_radius must be smaller than -" + of + "major_radius");
+    shape = shapes::torus(R, std::min(r, R));
     thickness = 2 * r;
   }
   if (all || name == "ellipsoid") {
@@ -238,6 +275,7 @@ std::vector<SolidSetup> read_solids(Options& options, const Physics& physics) {
   if (!names.empty() && !alone.empty() && !options.help() && !left_out)
     throw Error(ErrorKind::input, "option -solid_" + alone.front() + " stands beside -solids_" +
                                       names.front() + "_shape: give one solid or a list of solids");
+  if (!options.help() && !left_out) refuse_shared_sizes(options, names);
   if (names.empty() || options.help() || left_out)
     add_solid(solids, options, "solid_", "", physics);
   for (const std::string& name : names)

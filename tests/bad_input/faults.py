@@ -1,4 +1,5 @@
 """Ways to damage a gmsh 2.2 ascii file: each takes the text and gives the damaged text."""
+import math
 
 
 def sections(text):
@@ -166,4 +167,20 @@ def partitioned(text):
 def renamed(old, new):
     def damage(text):
         return text.replace(f'"{old}"', f'"{new}"')
+    return damage
+
+
+def turned(degrees, about):
+    """The mesh turned about the axis x (0), y (1) or z (2)."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    first, second = (about + 1) % 3, (about + 2) % 3
+
+    def damage(text):
+        parts = sections(text)
+        for row, line in enumerate(parts["Nodes"][1:], 1):
+            number, *x = line.split()
+            x = [float(word) for word in x]
+            x[first], x[second] = c * x[first] - s * x[second], s * x[first] + c * x[second]
+            parts["Nodes"][row] = " ".join([number, *map(repr, x)])
+        return joined(parts)
     return damage

@@ -23,6 +23,8 @@ GROUPS = (
      "Of several solids each has a name and all of these options under it: `-solids_NAME_shape`, "
      "`-solids_NAME_shear_modulus`. In a case file that is a block, "
      "`solids: {left: {shape: sphere, ...}, right: {...}}`. "
+     "An option that two of them could take is refused: `-solids_ring_minor_radius` of a torus `ring` beside a "
+     "sphere `ring_minor`. "
      "With the shape none the other options of a solid are left aside."),
     ("Time", ("time_",), "The end of the run and the length of its steps. "
      "Of these `fsi-advect` heeds `-time_end` and `-time_courant`."),
@@ -32,6 +34,8 @@ GROUPS = (
 PATCHES = ("Patches of fsi-vessel", "patches_", "NAME stands for the name of a patch of the mesh. "
            "Every patch needs a type, but for those called wall or symmetry. "
            "An option of a patch that the mesh does not have, or that its type does not take, is refused. "
+           "So is one that two patches could take: `-patches_lid_wall_velocity` of a wall `lid` beside a patch "
+           "`lid_wall`. "
            "Options without a default must be given where the type takes them; a velocity needs "
            "`-patches_NAME_velocity` or its file. "
            "The meaning begins with the types of patch that take the option. "
@@ -138,7 +142,8 @@ def document(folder):
         section(title, sentence, [row(left.pop(name)) for name in mine])
     mine = [name for name in left if name.startswith(PATCHES[1])]
     section(PATCHES[0], PATCHES[2], [row(left.pop(name)) for name in mine], False)
-    section("Of one driver", "What the driver of one scene asks for.",
+    section("Of one driver", "What the driver of one scene asks for. `fsi-pipe` needs a mesh with a period parallel to x; "
+            "for others take `fsi-vessel`.",
             [row(by_driver) for by_driver in left.values()])
     for title, words in COMMANDS:
         options = options_of(os.path.join(folder, "fsi-mesh"), words)

@@ -46,6 +46,19 @@ TEST(Options, ReadsWhatIsGivenAndFallsBackOtherwise) {
   FSI_PETSC(PetscOptionsClear(nullptr));
 }
 
+// PETSc by itself gives -in_b to whoever asks for -in_2_b.
+TEST(Options, ANameWithANumberInItIsAnotherName) {
+  FSI_PETSC(PetscOptionsClear(nullptr));
+  FSI_PETSC(PetscOptionsInsertString(nullptr, "-in_b 2.5 -In_3_B 4"));
+  Options options("test", "a test");
+  EXPECT_FALSE(options.given("in_2_b"));
+  EXPECT_EQ(options.real("in_2_b", 7, {.help = ""}), 7);
+  EXPECT_TRUE(options.given("in_3_b"));
+  EXPECT_EQ(options.real("in_3_b", 7, {.help = ""}), 4);
+  EXPECT_EQ(options.real("in_b", 7, {.help = ""}), 2.5);
+  FSI_PETSC(PetscOptionsClear(nullptr));
+}
+
 TEST(Options, NoneIsAnEmptyListAsHelpHasIt) {
   const auto read = [](Options& options) {
     EXPECT_TRUE(options.list("l", "").empty());

@@ -7,7 +7,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/mesh/gap.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -75,6 +78,35 @@ TEST(Forewords, CellsAreCountedWhereTheSolidIs) {
   const Real at_right = mean_edge(shapes::translate(shapes::sphere(0.2), {0.8, 0.5, 0.5}), fine);
   EXPECT_LT(at_left, at_right);
   EXPECT_NEAR(mean_edge(shapes::translate(shapes::sphere(0.1), {9, 9, 9}), cubes), 0.1, 1e-12);
+}
+
+// A pipe for fsi-pipe may be periodic across, too, and off by rounding.
+TEST(Forewords, APipeComesAgainAlongX) {
+  const auto sentence = [](const std::vector<std::string>& periodic, Real angle) {
+    test::BoxFile box{.n = {4, 4, 4}, .length = {1, 1, 1}, .periodic = periodic};
+    box.moved = [=](const Vec3& x) {
+      const Real c = std::cos(angle), s = std::sin(angle);
+      return Vec3{c * x.x - s * x.y, s * x.x + c * x.y, x.z};
+    };
+    try {
+      require_period_along_x(test::read_box(box));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(sentence({"left", "right"}, 0), "");
+  EXPECT_EQ(sentence({"right", "left"}, 1e-5), "");
+  EXPECT_EQ(sentence({"back", "front", "left", "right"}, 0), "");
+  EXPECT_EQ(sentence({"left", "right"}, std::numbers::pi), "");
+  const std::string across = sentence({"back", "front"}, 0);
+  EXPECT_NE(across.find("along (0, 0, 1)"), std::string::npos) << across;
+  const std::string aslant = sentence({"left", "right"}, std::numbers::pi / 6);
+  EXPECT_NE(aslant.find("along (0.866, 0.5, 0)"), std::string::npos) << aslant;
+  EXPECT_NE(aslant.find("fsi-vessel"), std::string::npos) << aslant;
+  EXPECT_NE(sentence({"left", "right"}, 2e-3), "");
+  EXPECT_NE(sentence({}, 0).find("no period"), std::string::npos);
 }
 
 }  // namespace
