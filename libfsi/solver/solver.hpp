@@ -226,6 +226,7 @@ class Solver {
   void add_pressure_of_rest(State& state, const CellField<Vec3>& force,
                             const FaceField<Real>& source);
   void add_pressure_of_new_weight(State& state);
+  void set_flux_of_pressure(const State& state);
   void set_flux_excess(const State& state, Real dt);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
@@ -358,6 +359,15 @@ class Solver {
     CellField<Vec3> acceleration;  // of the cells by all forces, in a step
   };
   std::optional<Heavy> heavy_;
+  /// What `balance_weight` works with.
+  struct AtRest {
+    explicit AtRest(const Mesh& mesh)
+        : weight(mesh), flux(mesh), of_flow(mesh), source(mesh), oblique_rest(mesh), q_b(mesh) {}
+    CellField<Vec3> weight;
+    FaceField<Real> flux, of_flow, source, oblique_rest;
+    BoundaryField<Real> q_b;  // stays 0
+  };
+  std::optional<AtRest> at_rest_;  // for forces and weights; none in an orthogonal projection
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<vof::Fractions> fractions_;      // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
