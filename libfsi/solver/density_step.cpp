@@ -33,6 +33,16 @@ void Solver::balance_weight(State& state) {
   }
 }
 
+// What is left of the force then tells how the flow begins. Call 14 balances the first step.
+void Solver::add_pressure_of_body_force() {
+  if (!driving_force_ || !at_rest_) return;
+  CellField<Vec3>& force = at_rest_->weight;
+  for (Index c = 0; c < mesh_.n_owned; ++c) force[c] = driving_force_(mesh_.C[c], state_.t);
+  mesh_.halo.update(force);
+  set_pressure_gradient(grad_p_, state_);
+  add_pressure_of_rest(state_, force, at_rest_->source);
+}
+
 // The flow that is there has its own pressure, so what is new is balanced apart from it.
 void Solver::add_pressure_of_new_weight(State& state) {
   at_rest_->weight.fill({});

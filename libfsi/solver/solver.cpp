@@ -143,6 +143,8 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
     forcing_->gradient = 0;
   }
   set_pressure_of_rest();
+  add_pressure_of_body_force();
+  start_rate_ = acceleration_rate();
   hold_backup();
 }
 
