@@ -305,11 +305,13 @@ void flux_of_rest(FaceField<Real>& phi, const ForceOfFaces& of, const std::vecto
     if (!internal && open_face[f - mesh.n_internal] == 0) continue;
     const Index N = internal ? mesh.neighbour[f] : P;
     const Real lambda = internal ? weights.lambda[f] : 0;
-    const Vec3 mean = lambda * of.force[P] + (1 - lambda) * of.force[N];
     const Real rise = (internal ? terms.p[N] : terms.p_b[f - mesh.n_internal]) - terms.p[P];
-    Real flux = dot(mean, mesh.Sf[f]) + weights.g[f] * (of.source[f] - rise);
+    Real flux = -weights.g[f] * rise;
+    if (of.force != nullptr)
+      flux += dot(lambda * (*of.force)[P] + (1 - lambda) * (*of.force)[N], mesh.Sf[f]) +
+              weights.g[f] * (*of.source)[f];
     if (i >= 0) flux -= dot(terms.grad_p_f[i], weights.k[f]);
-    phi[f] = terms.density->rho_0() / terms.density->of_face()[f] * flux;
+    phi[f] = terms.rho / density(terms, f) * flux;
   }
 }
 

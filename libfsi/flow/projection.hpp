@@ -164,15 +164,16 @@ class Projection {
   std::optional<CellField<Real>> rest_;  // the potential of what `orthogonal_` leaves
 };
 
-/// A force per volume, owned and halo, with its counterpart c_f in the face flux.
+/// A force per volume, owned and halo, with its counterpart c_f in the face flux; null: 0.
 struct ForceOfFaces {
-  const CellField<Vec3>& force;   ///< of cells
-  const FaceField<Real>& source;  ///< c_f
+  const CellField<Vec3>* force = nullptr;   ///< of cells
+  const FaceField<Real>* source = nullptr;  ///< c_f
 };
 
 /// phi_f = (rho_0 / rho_f) { Phi(force) + g c_f - (g (p_N - p_P) + k . (grad p)_f) }: the flux that
 /// a force and the pressure make from rest in a unit of time, times rho_0. It is 0 where the
-/// velocity is given. terms: p, grad_p_f, p_b and density are read.
+/// velocity is given. terms: p, grad_p_f, p_b and density are read; without a density rho_f is
+/// rho_0.
 void flux_of_rest(FaceField<Real>& phi, const ForceOfFaces& of, const std::vector<char>& open_face,
                   const FluxTerms& terms, const FaceWeights& weights, const Mesh& mesh);
 

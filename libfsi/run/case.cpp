@@ -368,11 +368,15 @@ std::vector<Limit> limits(const Solver& solver, const TimeSetup& time) {
   // The pressure of a load follows a change of the flow over some steps.
   constexpr int least_steps = 20;
   all.push_back({whole / least_steps, "end"});
-  // A start from rest has no advective limit but from what moves at the boundary. A hundredth of
-  // the run is small enough then, and after a solid is put in.
+  // A start from rest has no advective limit but from what moves at the boundary and what
+  // accelerates the fluid. After a solid is put in, a hundredth of the run is small enough.
   constexpr int steps_of_start = 10;
-  if (solver.steps() < steps_of_start)
-    all.push_back({std::min(whole / 100, solver.boundary_dt(time.courant)), "start"});
+  if (solver.steps() < steps_of_start) {
+    Real start = std::min(whole / 100, solver.boundary_dt(time.courant));
+    if (solver.state().step < steps_of_start)
+      start = std::min(start, solver.acceleration_dt(time.courant, steps_of_start));
+    all.push_back({start, "start"});
+  }
   if (solver.body() != nullptr) all.push_back({solver.elastic_dt(), "elastic"});
   if (solver.body() != nullptr) all.push_back({solver.strain_dt(solid::strain_of_part), "strain"});
   if (time.step_first > 0)

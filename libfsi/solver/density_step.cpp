@@ -1,7 +1,9 @@
-// The calls of a step for a solid with another density than the fluid.
+// The calls of a step for a solid with another density than the fluid, and for forces that the
+// pressure balances at rest.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/solver/solver.hpp"
@@ -22,7 +24,7 @@ void Solver::mix_density() {
 
 void Solver::balance_weight(State& state) {
   const Profile::Call call(profile_, calls_.balance_weight);
-  if (!heavy_) return;
+  if (!at_rest_) return;
   if (state.step == 0) {
     mesh_.halo.update(force_);
     add_pressure_of_rest(state, force_, rhie_chow_source_);
@@ -31,41 +33,55 @@ void Solver::balance_weight(State& state) {
   }
 }
 
+// What is left of the force then tells how the flow begins. Call 14 balances the first step.
+void Solver::add_pressure_of_body_force() {
+  if (!driving_force_ || !at_rest_) return;
+  CellField<Vec3>& force = at_rest_->weight;
+  for (Index c = 0; c < mesh_.n_owned; ++c) force[c] = driving_force_(mesh_.C[c], state_.t);
+  mesh_.halo.update(force);
+  set_pressure_gradient(grad_p_, state_);
+  add_pressure_of_rest(state_, force, at_rest_->source);
+}
+
 // The flow that is there has its own pressure, so what is new is balanced apart from it.
 void Solver::add_pressure_of_new_weight(State& state) {
-  CellField<Vec3> weight(mesh_);
-  FaceField<Real> source(mesh_);
+  at_rest_->weight.fill({});
+  at_rest_->source.fill(0);
   bool none = true;
   for (Body& body : bodies_) {
     if (body.begun != state.step || !body.body_force) continue;
     none = false;
-    add_weight(weight, source, body, projection_.stencil());
+    add_weight(at_rest_->weight, at_rest_->source, body, projection_.stencil());
   }
   if (none) return;
-  mesh_.halo.update(weight);
-  add_pressure_of_rest(state, weight, source);
+  mesh_.halo.update(at_rest_->weight);
+  add_pressure_of_rest(state, at_rest_->weight, at_rest_->source);
+}
+
+// The flux that the pressure makes on its own; 0 before the first step, whose force is the whole.
+void Solver::set_flux_of_pressure(const State& state) {
+  at_rest_->of_flow.fill(0);
+  if (state.step == 0) return;
+  flow::flux_of_rest(at_rest_->of_flow, {}, momentum_.boundary().open, flux_terms(0), weights_,
+                     mesh_);
 }
 
 // p = p_0 + p', solved until the force leaves all faces at rest beside p', the change of p:
 //   sum_f (rho_0 / rho_f) (force - compact grad p') . S = 0
+// The changes fall until only their rounding is left.
 void Solver::add_pressure_of_rest(State& state, const CellField<Vec3>& force,
                                   const FaceField<Real>& source) {
   constexpr int most = 60;
   constexpr Real round_off = 1e-15;
-  const std::vector<char>& open = momentum_.boundary().open;
-  FaceField<Real> flux(mesh_), of_flow(mesh_), oblique_rest(mesh_);
-  if (const auto& rest = projection_.oblique_rest()) oblique_rest.assign(*rest);
-  if (state.step > 0) {
-    const CellField<Vec3> none(mesh_);
-    const FaceField<Real> nothing(mesh_);
-    flow::flux_of_rest(of_flow, {none, nothing}, open, flux_terms(0), weights_, mesh_);
-  }
-  BoundaryField<Real> q_b(mesh_);
-  Real first = 0;
+  FaceField<Real>& flux = at_rest_->flux;
+  if (const auto& rest = projection_.oblique_rest()) at_rest_->oblique_rest.assign(*rest);
+  set_flux_of_pressure(state);
+  Real first = 0, last = std::numeric_limits<Real>::max();
   for (int i = 0; i < most; ++i) {
-    flow::flux_of_rest(flux, {force, source}, open, flux_terms(0), weights_, mesh_);
-    for (Index f = 0; f < mesh_.n_faces; ++f) flux[f] -= of_flow[f];
-    projection_.project(flux, q_, grad_q_, q_b, 0);
+    flow::flux_of_rest(flux, {&force, &source}, momentum_.boundary().open, flux_terms(0), weights_,
+                       mesh_);
+    for (Index f = 0; f < mesh_.n_faces; ++f) flux[f] -= at_rest_->of_flow[f];
+    projection_.project(flux, q_, grad_q_, at_rest_->q_b, 0);
     Real largest = 0;
     for (Index c = 0; c < mesh_.n_cells; ++c) {
       state.p[c] += q_[c];
@@ -74,9 +90,10 @@ void Solver::add_pressure_of_rest(State& state, const CellField<Vec3>& force,
     set_pressure_gradient(grad_p_, state);
     largest = global_max(largest);
     if (i == 0) first = largest;
-    if (largest <= round_off * first) break;
+    if (largest <= round_off * first || largest >= last) break;
+    last = largest;
   }
-  if (auto& rest = projection_.oblique_rest()) rest->assign(oblique_rest);  // of the flow
+  if (auto& rest = projection_.oblique_rest()) rest->assign(at_rest_->oblique_rest);  // of the flow
 }
 
 void Solver::renew_responses() {

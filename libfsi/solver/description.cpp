@@ -106,7 +106,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"add_elastic_force", solids(&OfBody::force)},
       {"add_semi_implicit", with_convection(solids(&OfBody::implicit), modes_.implicit_convection)},
       {"add_body_force", where(static_cast<bool>(driving_force_), "f(x, t + dt/2)")},
-      {"balance_weight", where(heavy_.has_value(), "first step: p balances the weight")},
+      {"balance_weight", where(at_rest_.has_value(), "first step: p balances forces and weight")},
       {"set_flux_excess", where(!projection_.orthogonal(), "flux less the mean of u")},
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
       {"predict_flux",

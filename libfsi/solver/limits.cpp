@@ -1,6 +1,7 @@
 // Queries of a Solver on its state: limits of the step, pressures at openings, gradients.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "libfsi/core/error.hpp"
@@ -10,18 +11,16 @@
 
 namespace fsi {
 
-Real Solver::courant_rate_max() const {
+Real Solver::courant_rate_max(const FaceField<Real>& phi) const {
   Real rate = 0;
   if (!modes_.implicit_convection) {
-    for (Index c = 0; c < mesh_.n_owned; ++c)
-      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
+    for (Index c = 0; c < mesh_.n_owned; ++c) rate = std::max(rate, courant_rate(phi, mesh_, c));
     return global_max(rate);
   }
   // The transport of the solids is explicit.
   for (const Body& body : bodies_)
-    for (const Index c : body.band.cells())
-      rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
-  return std::max(global_max(rate), courant_.rate(state_.phi));
+    for (const Index c : body.band.cells()) rate = std::max(rate, courant_rate(phi, mesh_, c));
+  return std::max(global_max(rate), courant_.rate(phi));
 }
 
 std::vector<Real> Solver::courant_rates() const {
@@ -38,7 +37,7 @@ std::vector<Real> Solver::courant_rates() const {
 }
 
 Real Solver::advective_dt(Real courant) const {
-  const Real rate = courant_rate_max();
+  const Real rate = courant_rate_max(state_.phi);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
 }
 
@@ -68,6 +67,29 @@ Real Solver::boundary_dt(Real courant) const {
                     norm(u_b_[f - mesh_.n_internal]) * norm(mesh_.Sf[f]) / mesh_.V[mesh_.owner[f]]);
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
+}
+
+// R: the Courant number per time of the flux a_f = (Phi(f) - g (p_N - p_P)) / rho
+Real Solver::acceleration_rate() const {
+  if (flow::size(state_.phi, mesh_) > 0) return 0;
+  FaceField<Real> a(mesh_);
+  for (Index f = 0; f < mesh_.n_internal; ++f) {
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Real lambda = weights_.lambda[f];
+    a[f] = -weights_.g[f] * (state_.p[N] - state_.p[P]) / physics_.rho;
+    if (driving_force_)
+      a[f] += dot(lambda * driving_force_(mesh_.C[P], state_.t) +
+                      (1 - lambda) * driving_force_(mesh_.C[N], state_.t),
+                  mesh_.Sf[f]) /
+              physics_.rho;
+  }
+  return courant_rate_max(a);
+}
+
+// n steps of dt bring the Courant number to n dt^2 R.
+Real Solver::acceleration_dt(Real courant, int steps) const {
+  return start_rate_ > 0 ? std::sqrt(courant / (steps * start_rate_))
+                         : std::numeric_limits<Real>::max();
 }
 
 Real Solver::elastic_dt(const Body& body) const {

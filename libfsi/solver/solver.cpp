@@ -108,6 +108,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
   if (courant_.any_simplex() && !setup.orthogonal_projection)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
+  if (driving_force_ && !setup.orthogonal_projection) at_rest_.emplace(mesh_);
   if (wall_parabola_.any()) {  // its excess is explicit
     momentum_.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
     momentum_.hold_old_of_part();
@@ -142,6 +143,8 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
     forcing_->gradient = 0;
   }
   set_pressure_of_rest();
+  add_pressure_of_body_force();
+  start_rate_ = acceleration_rate();
   hold_backup();
 }
 

@@ -114,6 +114,9 @@ class Solver {
   /// Collective. Largest dt in which nothing that moves at a boundary passes more than `courant` of
   /// the cell beside it: what is known of the flow before the first step.
   Real boundary_dt(Real courant) const;
+  /// The step of which so many bring the Courant number to `courant`, where `start` left the fluid
+  /// at rest and pressure and body force accelerate it; else the largest number.
+  Real acceleration_dt(Real courant, int steps) const;
   /// Collective. The largest step that resolves the solid's elastic waves, or, where these are
   /// treated implicitly, that was found stable; the largest number without a solid.
   Real elastic_dt() const;
@@ -203,6 +206,10 @@ class Solver {
   /// Whether some body's interface is at another time than the flow.
   bool stands_apart() const;
   void set_pressure_of_rest();
+  void add_pressure_of_body_force();
+  /// Collective. Courant number per time squared that the fluid at rest is given; 0 for one in
+  /// motion.
+  Real acceleration_rate() const;
   /// The step of the flow in which the last solid was put in.
   std::int64_t begun() const;
   // The calls of a step: doc/theory/step.md. What each sets stands first.
@@ -226,6 +233,7 @@ class Solver {
   void add_pressure_of_rest(State& state, const CellField<Vec3>& force,
                             const FaceField<Real>& source);
   void add_pressure_of_new_weight(State& state);
+  void set_flux_of_pressure(const State& state);
   void set_flux_excess(const State& state, Real dt);
   void predict_momentum(CellField<Vec3>& u, Real dt);
   void predict_flux(FaceField<Real>& phi, const CellField<Vec3>& u, Real dt);
@@ -294,8 +302,8 @@ class Solver {
   void set_wall_parabola();
   /// What the momentum equation takes implicitly besides the viscosity.
   const FaceField<Real>& implicit() const { return stiff_ ? *stiff_ : kappa_; }
-  /// The Courant number per time that limits a step.
-  Real courant_rate_max() const;
+  /// The Courant number per time of that flux that limits a step.
+  Real courant_rate_max(const FaceField<Real>& phi) const;
   /// Collective. That of every owned cell.
   std::vector<Real> courant_rates() const;
   /// kappa_w of bulk_friction.hpp, of the least viscous and the heaviest of fluid and solids.
@@ -359,6 +367,15 @@ class Solver {
     CellField<Vec3> acceleration;  // of the cells by all forces, in a step
   };
   std::optional<Heavy> heavy_;
+  /// What `balance_weight` works with.
+  struct AtRest {
+    explicit AtRest(const Mesh& mesh)
+        : weight(mesh), flux(mesh), of_flow(mesh), source(mesh), oblique_rest(mesh), q_b(mesh) {}
+    CellField<Vec3> weight;
+    FaceField<Real> flux, of_flow, source, oblique_rest;
+    BoundaryField<Real> q_b;  // stays 0
+  };
+  std::optional<AtRest> at_rest_;  // for forces and weights; none in an orthogonal projection
   std::optional<vof::Separation> separation_;  // where there are several solids
   std::vector<vof::Fractions> fractions_;      // of the bodies
   std::vector<Index> shared_;                  // owned cells that several bodies may hold
@@ -370,6 +387,7 @@ class Solver {
   std::optional<Backup> backup_;
   Real dt_cap_ = std::numeric_limits<Real>::max();  // after a rejected step
   Real dt_largest_ = 0;                             // of this run
+  Real start_rate_ = 0;                             // acceleration_rate() at the start
   std::int64_t failed_step_ = -1;                   // that of the last call of advance
   Real failed_dt_ = 0;                              // its length, as asked
   int tiny_steps_ = 0;                              // in a row

@@ -27,7 +27,9 @@ GROUPS = (
      "sphere `ring_minor`. "
      "With the shape none the other options of a solid are left aside."),
     ("Time", ("time_",), "The end of the run and the length of its steps. "
-     "Of these `fsi-advect` heeds `-time_end` and `-time_courant`."),
+     "Of these `fsi-advect` heeds `-time_end` and `-time_courant`. A flow from rest\n"
+     "begins with ten steps in which its Courant number grows to `-time_courant` "
+     "([limits](../theory/time_step.md#limits-of-the-step))."),
     ("Output", ("output_", "sample_", "checkpoint_", "restart", "end_when_empty", "max_wall_time"),
      "What a run writes, how often, and when it stops. [files.md](files.md) describes the files."),
 )

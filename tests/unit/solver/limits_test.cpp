@@ -74,6 +74,44 @@ TEST(StableStep, FollowsWhatIsGivenOverTime) {
   EXPECT_EQ(constant.dt, 2);
 }
 
+/// Slip channel, 8 x 4 cells of 1 x 1, between two pressures and in a force along it.
+struct Channel {
+  explicit Channel(Real pressure, Real force, const Vec3& u_0 = {})
+      : solver(mesh, {.rho = 2},
+               {.conditions = {{"bottom", Slip{}},
+                               {"top", Slip{}},
+                               {"left", Opening{pressure}},
+                               {"right", Opening{}}},
+                .body_force = [=](const Vec3&, Real) {
+                  return Vec3{force, 0, 0};
+                }}) {
+    solver.start([=](const Vec3&) { return u_0; });
+  }
+  const Mesh mesh = test::read_box({.n = {8, 4, 0}});
+  Solver solver;
+};
+
+// A flow at rest allows any step by its Courant number. A hundredth of a long run was too much.
+TEST(StableStep, BeginsByTheAccelerationOfTheFluid) {
+  constexpr Real a = 3, width = 1.0 / 8, courant = 0.5;
+  const Real dt = std::sqrt(courant * width / (10 * a));
+  for (const Real end : {20.0, 1e5})
+    for (const Real part : {0.0, 0.3, 1.0}) {  // of the pressure
+      Channel flow(2 * a * part, 2 * a * (1 - part));
+      for (int i = 0; i < 10; ++i) {
+        const Limit limit = stable_dt(flow.solver, {.end = end, .courant = courant});
+        EXPECT_EQ(limit.name, "start");
+        EXPECT_NEAR(limit.dt, dt, 1e-6 * dt);
+        EXPECT_EQ(flow.solver.advance(limit.dt), limit.dt);
+        EXPECT_NEAR(limit.dt / flow.solver.advective_dt(1), (i + 1) * courant / 10, 1e-4);
+      }
+      EXPECT_EQ(stable_dt(flow.solver, {.end = end, .courant = courant}).name, "advective");
+    }
+  // What the pressures balance, and what moves already, is not slowed.
+  EXPECT_NEAR(stable_dt(Channel(-2 * a, 2 * a).solver, {.end = 20}).dt, 0.2, 1e-12);
+  EXPECT_NEAR(stable_dt(Channel(0, 2 * a, {0.1, 0, 0}).solver, {.end = 20}).dt, 0.2, 1e-12);
+}
+
 TEST(StableStep, GrowsByATenthFromTheFirst) {
   Uniform flow;
   const TimeSetup time{.end = 1000, .step_first = 1e-3};
