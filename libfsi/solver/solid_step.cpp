@@ -276,6 +276,11 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 
+void add_kinks(Kinks& kinks, const Body& body, const CellField<Tensor>& L, Real mu_f) {
+  if (!body.semi_implicit() || (body.G == 0 && body.mu == mu_f)) return;
+  solid::add_kinks(kinks, {body.alpha_f, body.alpha, L}, body.zone, body.band, body.mesh);
+}
+
 FlowAround Solver::flow_around() {
   return {.u = state_.u,
           .phi = state_.phi,
@@ -334,9 +339,7 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffnes
   const FlowAround flow = flow_around();
   for (Body& body : bodies_) {
     fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
-    const bool kinked = body.G > 0 || body.mu != physics_.mu_f;
-    if (body.semi_implicit() && kinked)
-      solid::add_kinks(kinks_, {body.alpha_f, body.alpha, L_}, body.zone, body.band, mesh_);
+    add_kinks(kinks_, body, L_, physics_.mu_f);
   }
   if (!stiff_) return;
   stiff_->assign(kappa);
