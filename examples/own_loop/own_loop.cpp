@@ -44,7 +44,7 @@ fsi::RunStatus own_loop() {
   BoundaryField<Vec3> u_b(mesh), u_b_new(mesh);
   const BoundaryField<Real> none(mesh);  // of p and q: no patch is open
   const std::vector<fsi::Tensor> L_f;    // at irregular faces: there are none
-  fsi::Kinks kinks;                      // of u at the surface of the disc
+  fsi::Kinks kinks(mesh);                // of u at the surface of the disc
   const fsi::GradientStencil stencil(mesh, weights, {true, true});  // u is given on both patches
   flow::Projection projection(mesh, weights, conditions, fsi::Method::direct, 0);
   const flow::ViscousPressure viscous_pressure(mesh, weights);
@@ -99,8 +99,7 @@ fsi::RunStatus own_loop() {
     fsi::advect_pressure_jump(p, disc);                                 // (4)
     projection.set_gradient(grad_p, p, none);                           // (5)
     fsi::set_boundary_velocity(u_b, u, conditions, t, mesh);            // (6)
-    force.fill({}), source.fill(0), kinks.clear(),
-        disc.semi_implicit_elasticity.clear(kappa, stiffness);
+    force.fill({}), source.fill(0), disc.semi_implicit_elasticity.clear(kappa, stiffness);
 
     fsi::transport_memory(disc, L, around);   // (7)
     fsi::transport_elastic(disc, L, around);  // (8)
@@ -108,13 +107,14 @@ fsi::RunStatus own_loop() {
     parabola.keep_off(disc.alpha, disc.band.cells());                      // (9)
     fsi::add_elastic_force(force, source, disc, L, around);                // (11)
     fsi::add_semi_implicit(kappa, stiffness, force, disc, L, around, dt);  // (12)
-    fsi::add_kinks(kinks, disc, L, physics.mu_f);                          // (16)
 
     fsi::set_boundary_velocity(u_b_new, u, conditions, t + dt, mesh);
     auto& old = *momentum.old();  // of the step before
     fsi::set_boundary_velocity(old.u_b, old.u, conditions, t - momentum.dt_old, mesh);
     flow::set_flux_excess(excess, phi, u, L_f, weights, mesh);  // (15)
-    momentum.predict(u, momentum_terms, dt);                    // (16)
+    kinks.clear();
+    fsi::add_kinks(kinks, disc, L, physics.mu_f);
+    momentum.predict(u, momentum_terms, dt);  // (16)
     flux_terms.t = t;
     flow::predict_flux(phi, u, u_b_new, around.open, flux_terms, weights, mesh);  // (17)
     flow::divergence(divergence, phi, mesh);

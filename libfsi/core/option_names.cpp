@@ -86,4 +86,10 @@ std::string nearest_before_underscore(const std::string& name,
   return found;
 }
 
+std::string joined(const std::vector<std::string>& words, const char* separator) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : separator) + word;
+  return list;
+}
+
 }  // namespace fsi

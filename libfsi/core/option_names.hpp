@@ -23,4 +23,7 @@ std::string nearest(const std::string& name, const std::vector<std::string>& val
 std::string nearest_before_underscore(const std::string& name,
                                       const std::vector<std::string>& valid, std::size_t most);
 
+/// The words with the separator between them.
+std::string joined(const std::vector<std::string>& words, const char* separator = ", ");
+
 }  // namespace fsi

@@ -113,12 +113,6 @@ std::vector<std::string> split(const std::string& text) {
   return items;
 }
 
-std::string joined(const std::vector<std::string>& items) {
-  std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
-  return text;
-}
-
 /// Names that nobody has read yet, from the database.
 std::vector<std::string> unread() {
   PetscInt n = 0;

@@ -71,9 +71,9 @@ void convection(CellField<Vec3>& conv, const FaceField<Real>& phi, const CellFie
 
 void add_kinks(CellField<Vec3>& conv, const FaceField<Real>& phi, const Kinks& kinks,
                const Mesh& mesh) {
-  for (std::size_t i = 0; i < kinks.faces.size(); ++i) {
-    const Index f = kinks.faces[i];
-    const Vec3 flux = phi[f] * kinks.excess[i];
+  for (std::size_t i = 0; i < kinks.faces().size(); ++i) {
+    const Index f = kinks.faces()[i];
+    const Vec3 flux = phi[f] * kinks.excess()[i];
     conv[mesh.owner[f]] += flux;
     conv[mesh.neighbour[f]] -= flux;
   }

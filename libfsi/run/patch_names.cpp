@@ -82,12 +82,6 @@ std::string patch_of(const std::string& text, const Mesh& mesh) {
 
 }  // namespace
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 void check_patch_names(const Options& options, const Mesh& mesh) {
   for (const std::string& name : names_of(mesh)) {
     const auto fits = [](unsigned char c) {
@@ -130,7 +124,7 @@ void check_patch_names(const Options& options, const Mesh& mesh) {
   check(options.names("patches_", ""), "");
 }
 
-bool takes(const std::string& type, const std::string& key) {
+bool patch_takes(const std::string& type, const std::string& key) {
   return std::ranges::count(keys_of(type), key) > 0;
 }
 
@@ -141,7 +135,7 @@ void check_patch_keys(const Options& options, const Mesh& mesh,
     const std::string option = "option -patches_" + text, name = patch_of(text, mesh);
     bool taken = false;
     for (const auto& [patch, type] : types) {
-      if (!takes(type, key_of(text, patch))) continue;
+      if (!patch_takes(type, key_of(text, patch))) continue;
       taken = true;
       const auto zero = [&] {
         return aside.text("patches_" + text, "", "").find_first_not_of("0., ") == text.npos;

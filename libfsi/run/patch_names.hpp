@@ -18,7 +18,7 @@ extern const std::vector<std::string> patch_types;
 void check_patch_names(const Options& options, const Mesh& mesh);
 
 /// Whether a patch of that type takes that key.
-bool takes(const std::string& type, const std::string& key);
+bool patch_takes(const std::string& type, const std::string& key);
 
 /// types: that of each patch. Errors: Error{input} if a patch has an option that its type does not
 /// take. Also if an option can be that of two patches, a_b_KEY of `a` or of `a_b`, where a patch
@@ -26,8 +26,5 @@ bool takes(const std::string& type, const std::string& key);
 /// run gives it.
 void check_patch_keys(const Options& options, const Mesh& mesh,
                       const std::map<std::string, std::string>& types);
-
-/// The words with commas between them.
-std::string joined(const std::vector<std::string>& words);
 
 }  // namespace fsi

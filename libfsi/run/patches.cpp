@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/centre_line.hpp"
 #include "libfsi/flow/planes_at.hpp"
@@ -49,7 +50,7 @@ class PatchOptions {
  private:
   /// The option of that key.
   std::string of(const std::string& key) {
-    FSI_ASSERT(takes(type_, key));
+    FSI_ASSERT(patch_takes(type_, key));
     return name_ + key;
   }
   Real real(const std::string& key, Real fallback, const std::string& help,

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "libfsi/core/error.hpp"
+#include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
 
@@ -64,19 +65,13 @@ std::vector<std::string> names_of(const std::string& header) {
   return names;
 }
 
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : separator) + word;
-  return list;
-}
-
 /// Errors: Error{input} where the header's names are not those of the columns.
 void check_header(const std::string& file, const std::string& header,
                   const std::vector<ColumnNames>& columns) {
   std::vector<std::string> expected;
   for (const ColumnNames& names : columns)
     expected.push_back(names.empty() ? "a value" : joined(names, " or "));
-  const std::string wanted = "; expected: " + joined(expected, ", ") +
+  const std::string wanted = "; expected: " + joined(expected) +
                              " (a unit in brackets behind a name, capitals and blanks are allowed)";
   const std::vector<std::string> found = names_of(header);
   const std::string begin = "file \"" + file + "\": ";

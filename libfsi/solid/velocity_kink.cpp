@@ -18,9 +18,7 @@ void add_kinks(Kinks& kinks, const SurfaceAtFaces& surface, const SimplexZone& z
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     if (zone.has(P) || zone.has(N)) continue;
     const Real part = surface.alpha_f[f];
-    kinks.faces.push_back(f);
-    kinks.excess.push_back(-std::min(part, 1 - part) *
-                           dot(surface.L[N] + -1.0 * surface.L[P], mesh.d[f]));
+    kinks.add(f, -std::min(part, 1 - part) * dot(surface.L[N] + -1.0 * surface.L[P], mesh.d[f]));
   }
 }
 

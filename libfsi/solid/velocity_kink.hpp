@@ -18,7 +18,7 @@ struct SurfaceAtFaces {
 /// Whether the surface passes between the cells of internal face f.
 bool crosses(const CellField<Real>& alpha, Index f, const Mesh& mesh);
 
-/// Appends the faces of the band between a cell with alpha of at least 1/2 and one with less,
+/// Adds the faces of the band between a cell with alpha of at least 1/2 and one with less,
 ///   u_f = (u_P + u_N) / 2 - min(alpha_f, 1 - alpha_f) (L_N - L_P) . d.
 /// On the line between the cells u is linear on either side of the surface, and L . d changes by
 /// the jump there. Each quasi-Green gradient has a neighbour on the other side, so that L_N - L_P

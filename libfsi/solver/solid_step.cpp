@@ -113,7 +113,6 @@ void Solver::clear_forces() {
   rhie_chow_source_.fill(0);
   interface_faces_.clear();
   interface_L_f_.clear();
-  kinks_.clear();
   for (Body& body : bodies_) body.semi_implicit_elasticity.clear(kappa_, stiffness_);
 }
 
@@ -337,10 +336,7 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffnes
                                CellField<Vec3>& force, Real dt) {
   const Profile::Call call(profile_, calls_.add_semi_implicit);
   const FlowAround flow = flow_around();
-  for (Body& body : bodies_) {
-    fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
-    add_kinks(kinks_, body, L_, physics_.mu_f);
-  }
+  for (Body& body : bodies_) fsi::add_semi_implicit(kappa, stiffness, force, body, L_, flow, dt);
   if (!stiff_) return;
   stiff_->assign(kappa);
   for (const Body& body : bodies_)

@@ -67,8 +67,8 @@ void add_weight(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body&
 /// Body::semi_implicit_elasticity before. Sets L on the band if the flow has none.
 void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
                        Body& body, CellField<Tensor>& L, const FlowAround& flow, Real dt);
-/// Appends the kinks of u at the body's surface, which linear convection reads: none of a body that
-/// bears no stress and has the fluid's viscosity, or with left_cauchy_green. After
+/// (16) Adds the kinks of u at the body's surface, which linear convection reads: none of a body
+/// that bears no stress and has the fluid's viscosity, or with left_cauchy_green. After
 /// `add_semi_implicit`, which sets L where the flow does not.
 void add_kinks(Kinks& kinks, const Body& body, const CellField<Tensor>& L, Real mu_f);
 

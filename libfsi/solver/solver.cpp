@@ -90,6 +90,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
                  patches_where(conditions_, lets_slip)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
+      kinks_(mesh),
       openings_(mesh, conditions_, physics.rho),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors,
@@ -240,6 +241,8 @@ void Solver::predict_momentum(CellField<Vec3>& u, Real dt) {
   set_boundary_velocity(u_b_new_, u, conditions_, state_.t + dt, mesh_);
   if (auto& old = momentum_.old())
     set_boundary_velocity(old->u_b, old->u, conditions_, state_.t - momentum_.dt_old, mesh_);
+  kinks_.clear();
+  for (const Body& body : bodies_) add_kinks(kinks_, body, L_, physics_.mu_f);
   const flow::MomentumTerms terms{.u_b = u_b_,
                                   .u_b_new = u_b_new_,
                                   .grad_p = grad_p_,
