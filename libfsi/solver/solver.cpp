@@ -90,7 +90,6 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
                  patches_where(conditions_, lets_slip)),
       vertex_mean_(mesh, u_stencil_),
       L_f_(weights_.irregular.size()),
-      kinks_(mesh),
       openings_(mesh, conditions_, physics.rho),
       projection_(mesh, weights_, conditions_, pressure_method(mesh),
                   setup.non_orthogonal_correctors,

@@ -343,7 +343,7 @@ class Solver {
   GradientStencil u_stencil_;
   VertexMean<Tensor> vertex_mean_;
   std::vector<Tensor> L_f_;             // at irregular faces
-  Kinks kinks_;                         // of u at the surfaces
+  Kinks kinks_{mesh_};                  // of u at the surfaces
   std::vector<Index> interface_faces_;  // irregular faces beside the surface, where L_f_ is
   std::vector<Tensor> interface_L_f_;   // one-sided, and that gradient
   flow::Openings openings_;
