@@ -254,7 +254,8 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
   if (!body.semi_implicit()) return;
   if (!flow.has_L) {
     gradient(L, flow.u, flow.u_b, flow.u_stencil, body.mesh, body.band.cells());
-    body.mesh.halo.update(L, body.band.listed());
+    // In the whole halo: L in the bands of the bodies before stays.
+    body.mesh.halo.update(L);
   }
   // The map kinematics is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body.kinematics);

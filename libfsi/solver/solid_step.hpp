@@ -64,7 +64,8 @@ void add_weight(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, Body&
 
 /// (12) Collective. Adds the two terms that keep a step of dt stable, if elasticity is implicit in
 /// part, and dt G alpha_f lambda_B to the stiffness. kappa and stiffness: cleared by
-/// Body::semi_implicit_elasticity before. Sets L on the band if the flow has none.
+/// Body::semi_implicit_elasticity before. Sets L on the band and its halo if the flow has none, and
+/// leaves it elsewhere.
 void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellField<Vec3>& force,
                        Body& body, CellField<Tensor>& L, const FlowAround& flow, Real dt);
 /// (16) Adds the kinks of u at the body's surface, which linear convection reads: none of a body
