@@ -39,9 +39,10 @@ Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh&
   for (bool nearer = mesh.translation.size() > 1; nearer;) {
     nearer = false;
     for (const Vec3& shift : mesh.translation) {
-      const Real value = shape(xi + laps + shift);
+      const Vec3 there = laps + shift;  // exact, so that the way to an image leaves no rounding
+      const Real value = shape(xi + there);
       if (!(value < least)) continue;
-      least = value, laps += shift, nearer = true;
+      least = value, laps = there, nearer = true;
     }
   }
   xi += laps;
