@@ -89,11 +89,11 @@ void Solver::separate_bodies() {
   shared_.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (const Index c : bodies_[i].band.cells()) {  // of before the motion, so with those around
+      const auto end = bodies_.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto lists = [&](const Body& body) { return body.band.listed()[c] != 0; };
+      if (std::any_of(bodies_.begin(), end, lists)) continue;  // seen in the band of that one
       const auto holds = [&](const Body& body) { return body.alpha[c] > 0; };
-      const auto first = std::ranges::find_if(bodies_, holds);
-      // listed once, by the first that holds the cell
-      if (first - bodies_.begin() != static_cast<std::ptrdiff_t>(i)) continue;
-      if (std::any_of(first + 1, bodies_.end(), holds)) shared_.push_back(c);
+      if (std::ranges::count_if(bodies_, holds) > 1) shared_.push_back(c);
     }
   if (!separation_->apply(fractions_, shared_)) return;
   for (Body& body : bodies_)
