@@ -10,7 +10,8 @@ namespace fsi {
 /// Each solid makes its one-sided velocity gradient from that of the flow, in its known cells and
 /// those around them (solid::InterfaceGradient). Where these cells are those of several solids, the
 /// result must not depend on the order of the solids. In a cell that is at least half of one solid,
-/// the gradient of this solid stays; in any other cell the mean of those of all solids that set it.
+/// the gradient of this solid stays, or the mean of such solids where they overlap; in any other
+/// cell the mean of those of all solids that set it.
 class SideGradients {
  public:
   /// Zero fields; mesh must outlive them.
@@ -25,7 +26,7 @@ class SideGradients {
 
  private:
   CellField<Tensor> of_flow_, of_all_;
-  CellField<Real> sides_;  // number of gradients in of_all_; -1: that of the cell's own solid
+  CellField<Real> sides_;  // number of gradients in of_all_; < 0: of the cell's own solids
 };
 
 }  // namespace fsi

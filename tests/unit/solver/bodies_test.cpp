@@ -50,33 +50,6 @@ struct Scene {
   Solver solver;
 };
 
-// Two discs overlap in some cells, where a third one has left a wisp far outside of its band. They
-// are separated there as far as there is room, and the rest is told, whichever solid the wisp is
-// of.
-TEST(Bodies, AWispOfAnotherHidesNoOverlap) {
-  for (const std::size_t of : {0U, 2U}) {
-    Scene scene(false);
-    const Vec3 far{0.2, 0.8, 0}, left{0.48, 0.39, 0}, right{0.8, 0.39, 0};
-    const std::array places{of == 0 ? far : left, of == 0 ? left : right, of == 0 ? right : far};
-    for (const std::size_t i : {0U, 1U, 2U}) {
-      Solid solid = disc(std::to_string(i), places[i], 1);
-      solid.memory = false;
-      scene.solver.put_solid(solid);
-    }
-    auto& bodies = scene.solver.bodies();
-    CellField<Real>&wisp = bodies[of].alpha, &a = bodies[of == 0 ? 1 : 0].alpha,
-    &b = bodies[of == 0 ? 2 : 1].alpha;
-    Real most = 0;
-    for (Index c = 0; c < scene.mesh.n_cells; ++c)
-      if (a[c] > 0 && b[c] > 0) wisp[c] = 1e-10, b[c] = 1.1 - a[c], most = a[c] + b[c];
-    EXPECT_GT(global_max(most), 1.09);
-    scene.solver.step(1e-3);
-    most = 0;
-    for (Index c = 0; c < scene.mesh.n_owned; ++c) most = std::max(most, a[c] + b[c]);
-    EXPECT_NEAR(scene.solver.overlap(), global_max(most) - 1, 1e-9) << of;
-  }
-}
-
 // What a step makes of two discs that are almost in touch does not depend on which was put in
 // first. They have one, two and no one-sided gradients, traction and film in common cells.
 TEST(Bodies, TheirOrderDoesNotMatter) {
