@@ -121,9 +121,12 @@ std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limi
                "(%.4g, %.4g, %.4g)",
                gap.cells, limits.gap, gap.width, gap.from.c_str(), gap.to.c_str(), gap.x.x, gap.x.y,
                gap.x.z),
-         print("give gmsh a smaller size, %.2g or less, for all cells or for those there alone: a "
-               "field of type Ball or Box with VIn = %.2g about that place as Background Field",
-               gap.width / 12, gap.width / 12)});
+         print(
+             "give gmsh a smaller size, %.2g or less, for all cells or for those there alone: a "
+             "field of type Ball or Box with VIn = %.2g about that place as Background Field; "
+             "these are in the unit of the mesh: divide them by the Mesh.ScalingFactor of the .geo "
+             "file, if it has one",
+             gap.width / 12, gap.width / 12)});
   return found;
 }
 

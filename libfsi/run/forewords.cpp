@@ -15,13 +15,13 @@ namespace {
 
 /// Flow through a patch at one time.
 struct Flow {
-  Real mean = 0, top = 0;
+  Real mean = 0, top = 0;  // mean: into the mesh
 };
 
 Flow at(const FlowRate& flow, Real t, Real area, const Mesh& mesh) {
-  const Real mean = std::abs(flow.rate(t)) / area;
+  const Real mean = flow.rate(t) / area;
   const Real middle = mesh.dim == 2 ? 1.5 : 2;  // of a parabola, over its mean
-  return {mean, flow.profile == InflowProfile::plug ? mean : middle * mean};
+  return {mean, std::abs(flow.profile == InflowProfile::plug ? mean : middle * mean)};
 }
 
 Flow at(const FixedVelocity& fixed, const Patch& patch, Real t, Real area, const Mesh& mesh) {
@@ -31,7 +31,7 @@ Flow at(const FixedVelocity& fixed, const Patch& patch, Real t, Real area, const
     const Vec3 u = fixed.u(mesh.Cf[f], t);
     through.add(dot(u, mesh.Sf[f])), top = std::max(top, norm(u));
   }
-  return {std::abs(through.total()) / area, global_max(top)};
+  return {-through.total() / area, global_max(top)};
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
       // Even times alone may meet a pulse at one phase.
       const Real t = end * (i <= times ? static_cast<Real>(i) / times : golden(i));
       const Flow flow = rate != nullptr ? at(*rate, t, A, mesh) : at(*fixed, patch, t, A, mesh);
-      if (flow.mean * D > peak.mean * peak.length)
-        peak = {patch.name, t, flow.mean * A, flow.mean, flow.top, D};
+      if (std::abs(flow.mean) * D > peak.mean * peak.length)
+        peak = {patch.name, t, flow.mean * A, std::abs(flow.mean), flow.top, D};
     }
   }
   return peak;
@@ -65,12 +65,11 @@ PeakFlow peak_flow(const Conditions& conditions, const Mesh& mesh, Real end) {
 
 std::string text_of(const PeakFlow& peak, Real nu) {
   return print(
-      "peak of the flow: patch %s at t = %.4g, flow rate %.4g, Re = %.4g of the mean velocity %.4g "
-      "and the "
-      "diameter %.4g; U = %.4g is the largest velocity there; for a parabola this "
+      "peak of the flow: patch %s at t = %.4g, flow rate %.4g%s, Re = %.4g of the mean velocity "
+      "%.4g and the diameter %.4g; U = %.4g is the largest velocity there; for a parabola this "
       "takes the section to be a circle, in two dimensions a slit",
-      peak.patch.c_str(), peak.t, peak.rate, peak.mean * peak.length / nu, peak.mean, peak.length,
-      peak.top);
+      peak.patch.c_str(), peak.t, peak.rate, peak.rate < 0 ? " (out of the mesh)" : "",
+      peak.mean * peak.length / nu, peak.mean, peak.length, peak.top);
 }
 
 Real largest_force(const OfPlaceAndTime::Function& f, const Mesh& mesh, Real end) {

@@ -13,7 +13,7 @@ namespace fsi {
 struct PeakFlow {
   std::string patch;  ///< "" where no patch prescribes a flow
   Real t = 0;         ///< when
-  Real rate = 0;      ///< |Q|
+  Real rate = 0;      ///< Q into the mesh; below 0 it leaves there
   Real mean = 0;      ///< |Q| / A
   Real top = 0;       ///< largest velocity; of a parabola that of a round section (2-D: of a slit)
   Real length = 0;    ///< (4 A / pi)^(1/2), in 2-D the patch's length

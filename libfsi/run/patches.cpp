@@ -76,29 +76,31 @@ class PatchOptions {
     require(text.ends_with(".csv"), "option -" + of(key) + ": \"" + text +
                                         "\" is neither a number nor the name of a csv file");
     OfTime values = series(text, period, {key, symbol, "value"}, of(key));
-    if (period == 0) tell_of_constant(values, text, key, symbol);
+    tell_of_table(values, text, period, {key, symbol, "value"}, of(key));
     return values;
   }
-  /// A notice if a table varies, but not during the run, or not to its end.
-  void tell_of_constant(const OfTime& values, const std::string& file, const std::string& key,
-                        const std::string& symbol) {
+  /// A notice if a table varies, but not during the run, or not to its end, or looks mistaken.
+  void tell_of_table(const OfTime& values, const std::string& file, Real period,
+                     const ColumnNames& names, const std::string& option) {
     Options aside(options_);
     const Real end = aside.real("time_end", 1, {.help = ""});
     const auto [least, most] = values.range(0, end);
-    const auto rows = read_rows(file, {{"t", "time"}, {key, symbol, "value"}}, of(key));
+    const auto rows = read_rows(file, {{"t", "time"}, names}, option);
     const auto other = [&](const std::vector<Real>& row) { return row[1] != rows[0][1]; };
-    if (rank() == 0 && end > 0 && least == most && std::ranges::any_of(rows, other))
-      std::fprintf(
-          stderr,
-          "fsi: notice: file \"%s\": its values are %g during the whole run to t = %g; its "
-          "times go from %g to %g: are both in the same units?\n",
-          file.c_str(), most, end, rows.front()[0], rows.back()[0]);
-    else if (rank() == 0 && rows.back()[0] < end && std::ranges::any_of(rows, other))
-      std::fprintf(stderr,
-                   "fsi: notice: file \"%s\": its last time is %g, and the run goes to t = %g; its "
-                   "last value %g holds from then on; if its values come again, give "
-                   "-%speriod\n",
-                   file.c_str(), rows.back()[0], end, rows.back()[1], name_.c_str());
+    if (end <= 0 || std::ranges::none_of(rows, other)) return;
+    std::string text = doubt_about(rows, period, end);
+    if (period == 0 && least == most)
+      text = print(
+          "its values are %g during the whole run to t = %g; its times go from %g to %g: "
+          "are both in the same units?",
+          most, end, rows.front()[0], rows.back()[0]);
+    else if (period == 0 && rows.back()[0] < end)
+      text = print(
+          "its last time is %g, and the run goes to t = %g; its last value %g holds from "
+          "then on; if its values come again, give -%speriod",
+          rows.back()[0], end, rows.back()[1], name_.c_str());
+    if (rank() == 0 && !text.empty())
+      std::fprintf(stderr, "fsi: notice: file \"%s\": %s\n", file.c_str(), text.c_str());
   }
 
   Condition wall() {

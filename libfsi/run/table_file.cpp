@@ -152,4 +152,24 @@ OfTime series(const std::string& file, Real period, const ColumnNames& value,
   return {at, range};
 }
 
+std::string doubt_about(const std::vector<std::vector<Real>>& rows, Real period, Real end) {
+  constexpr Real hardly = 0.01, jump = 0.01;  // of all times, and of the range of the values
+  const Real first = rows.front()[0], last = rows.back()[0];
+  const auto [least, most] = std::ranges::minmax(rows, {}, [](const auto& row) { return row[1]; });
+  const Real range = most[1] - least[1];
+  if (range == 0) return "";
+  if (end > 0 && end < hardly * (last - first))
+    return print("its times go from %g to %g, and the run to t = %g: are both in the same units?",
+                 first, last, end);
+  const Real a = rows.back()[1], b = rows.front()[1];
+  // Rounding may part the period from the times.
+  if (period > 0 && end > first + period && last - first > (1 - 1e-9) * period &&
+      std::abs(a - b) > jump * range)
+    return print(
+        "its values jump from %g to %g after each period of %g, where its last row and "
+        "its first meet: should the last row repeat the first?",
+        a, b, period);
+  return "";
+}
+
 }  // namespace fsi

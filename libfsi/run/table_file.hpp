@@ -27,4 +27,9 @@ std::vector<std::vector<Real>> read_rows(const std::string& file,
 OfTime series(const std::string& file, Real period = 0, const ColumnNames& value = {},
               const std::string& option = "");
 
+/// What looks mistaken in rows of time and value, in a run to `end`; "" where nothing does. period:
+/// as above. A run that sees almost nothing of them may have another unit of time, and a last row
+/// that should repeat the first may not.
+std::string doubt_about(const std::vector<std::vector<Real>>& rows, Real period, Real end);
+
 }  // namespace fsi

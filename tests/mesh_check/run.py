@@ -60,6 +60,7 @@ def check_report(text, mesh):
     check(any("from wall to wall" in line and line.startswith("cells across") for line in lines),
           "the passage is told from wall to wall")
     check("give gmsh a smaller size, " in text, "and what to change where it holds few cells")
+    check("divide them by the Mesh.ScalingFactor" in text, "in the unit of the mesh, which need not be that of the geometry")
     for words in ("are irregular", "upwind share beta", "theta_f", "may take steps of", "in gmsh: "):
         check(words in text, f"it tells: {words}")
 

@@ -26,6 +26,8 @@ TEST(Forewords, ThePeakOfAPulseIsFound) {
   EXPECT_EQ(peak.patch, "left");
   EXPECT_NEAR(peak.t, 0.5, 1e-3);
   EXPECT_NEAR(peak.mean, 0.5 / 0.25, 1e-6);
+  EXPECT_NEAR(peak.rate, -0.5, 1e-6) << "with its sign";
+  EXPECT_NE(text_of(peak, 1).find("flow rate -0.5 (out of the mesh), Re"), std::string::npos);
   EXPECT_NEAR(peak.top, 2 * peak.mean, 1e-12) << "a parabola over a round section";
   EXPECT_NEAR(peak.length, 1 / std::sqrt(std::numbers::pi), 1e-12);
   EXPECT_EQ(peak_flow({{"left", Opening{}}, {"right", Opening{}}}, mesh, 2).patch, "");

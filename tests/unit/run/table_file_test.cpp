@@ -94,5 +94,23 @@ TEST(Table, WhatIsNotMeantIsNamed) {
     EXPECT_NE(refusal(text).find(words), std::string::npos) << refusal(text);
 }
 
+TEST(Series, DoubtsATableInAnotherUnitOfTime) {
+  const std::vector<std::vector<Real>> rows{{0, 1}, {300, 4}, {800, 1}};
+  for (const Real period : {0, 800})
+    EXPECT_NE(doubt_about(rows, period, 0.8).find("from 0 to 800, and the run to t = 0.8"),
+              std::string::npos);
+  EXPECT_EQ(doubt_about(rows, 800, 2400), "");
+  EXPECT_EQ(doubt_about({{0, 1}, {800, 1}}, 0, 0.8), "") << "nothing varies";
+}
+
+TEST(Series, DoubtsALastRowThatDoesNotRepeatTheFirst) {
+  const std::vector<std::vector<Real>> rows{{0, 1}, {0.5, 3}, {1, 2}};
+  EXPECT_NE(doubt_about(rows, 1, 4).find("jump from 2 to 1 after each period of 1"),
+            std::string::npos);
+  EXPECT_EQ(doubt_about(rows, 1, 0.9), "") << "the run ends before";
+  EXPECT_EQ(doubt_about(rows, 1.2, 4), "") << "a line leads back";
+  EXPECT_EQ(doubt_about(rows, 0, 4), "") << "no period";
+}
+
 }  // namespace
 }  // namespace fsi
