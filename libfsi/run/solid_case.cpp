@@ -340,11 +340,11 @@ void put_solids(Solver& solver, const Case& setup) {
     constexpr Real most = solid::SurfaceTraction::ratio_max;
     if (!body.two_viscosities && body.mu > most * solver.physics().mu_f)
       std::fprintf(stderr,
-                   "fsi: warning: %s: its viscosity is %g times the fluid's; beyond %g times the "
-                   "friction at the surface is an approximation on quadrilaterals and hexahedra, "
-                   "and bodies settle up to 40 per cent too slowly; take at most %g times "
-                   "(doc/verification/stiff.md)\n",
-                   name.c_str(), body.mu / solver.physics().mu_f, most, most);
+                   "fsi: warning: %s: its viscosity is %g times the fluid's; with "
+                   "-solid_kinematics left_cauchy_green the friction at the surface is an "
+                   "approximation, beyond %g times a wrong one; take log_conformation or "
+                   "reference_map (doc/verification/stiff.md)\n",
+                   name.c_str(), body.mu / solver.physics().mu_f, most);
   }
 }
 

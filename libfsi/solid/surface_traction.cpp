@@ -33,7 +33,7 @@ SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, R
       jump_force_(mesh, weights),
       touch_(mesh),
       L_(mesh),
-      L_in_(mesh),
+      L_viscous_(mesh),
       fitted_(mesh),
       kink_(mesh),
       own_(mesh),
@@ -101,69 +101,99 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
   L_[c] = dot(fit.R + (-1) * outer(kink_[c], k), inv);
 }
 
+template <class T>
+void SurfaceTraction::extend(CellField<T>& own, const Band& band) {
+  for (const Real ring : {1, 2}) {
+    mesh_.halo.update(own), mesh_.halo.update(has_own_);
+    for (const Index c : band.cells()) {
+      if (touch_[c] == 0 || has_own_[c] > 0) continue;
+      T sum;
+      Real weight = 0;
+      for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
+        if (has_own_[n] == 0 || has_own_[n] > ring) return;
+        sum += (1 / norm2(r)) * own[n], weight += 1 / norm2(r);
+      });
+      if (weight > 0) own[c] = (1 / weight) * sum, has_own_[c] = ring + 1;
+    }
+  }
+  mesh_.halo.update(own);
+}
+
 void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) {
   const auto known = [&](Index c) { return surface.alpha[c] >= alpha_known; };
   const bool in = mu_.solid > mu_.fluid;
-  const auto same = [&](Index c) { return known(c) == in; };
+  // Around a triangle or tetrahedron too few cells are uncut.
+  const auto viscous = [&](Index c) {
+    return in && !mesh_.simplex(c) ? uncut(surface.alpha[c]) : known(c) == in;
+  };
+  const bool lends = mu_least_ > mu_.solid;
   const auto inner = [&](Index c) { return uncut(surface.alpha[c]) && touch_[c] == 0; };
   const auto none = [](Index) { return false; };
   for (const Index c : band.cells()) {
-    if (touch_[c] > 1)
-      L_in_[c] = one_sided_gradient(surface.L, surface.u, same, inner, nowhere, mesh_, c);
-    if (touch_[c] == 0 || !known(c) || mu_least_ == mu_.solid) continue;
-    own_[c] =
-        twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, nowhere, mesh_, c));
-    has_own_[c] = 1;
+    if (touch_[c] == 0) continue;
+    L_viscous_[c] = surface.L[c];
+    if (viscous(c)) {
+      L_viscous_[c] = one_sided_gradient(surface.L, surface.u, viscous, inner, nowhere, mesh_, c);
+      has_own_[c] = in ? 1 : 0;
+    }
+    if (lends && known(c)) {
+      own_[c] =
+          twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, nowhere, mesh_, c));
+      has_own_[c] = 1;
+    }
   }
-  if (mu_least_ == mu_.solid) return;
-  mesh_.halo.update(own_), mesh_.halo.update(has_own_);
-  for (const Index c : band.cells()) {
-    if (touch_[c] == 0 || has_own_[c] > 0) continue;
-    SymTensor sum;
-    Real weight = 0;
-    for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
-      if (has_own_[n] == 1) sum += (1 / norm2(r)) * own_[n], weight += 1 / norm2(r);
-    });
-    if (weight > 0) own_[c] = (1 / weight) * sum, has_own_[c] = 2;
-  }
-  mesh_.halo.update(own_);
+  if (in)
+    extend(L_viscous_, band);
+  else
+    mesh_.halo.update(L_viscous_);
+  if (lends) extend(own_, band);
 }
 
-SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m) const {
+SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m, Real alpha_f) const {
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real both = fitted_[P] + fitted_[N];
   const Real p = fitted_[P] / both, n = fitted_[N] / both;
-  return {p * L_[P] + n * L_[N], along_surface(p * kink_[P] + n * kink_[N], m),
-          face_mean(own_, f, weights_, mesh_)};
+  const Tensor L = p * L_[P] + n * L_[N];
+  if (mu_.solid > mu_.fluid) {
+    const Tensor L_solid = face_mean(L_viscous_, f, weights_, mesh_);
+    return {.mean = alpha_f * L_solid + (1 - alpha_f) * L, .common = L_solid, .lent = {}};
+  }
+  const Tensor mean = L + outer(alpha_f * along_surface(p * kink_[P] + n * kink_[N], m), m);
+  return {.mean = mean,
+          .common = mean,
+          .lent = (mu_least_ - mu_.solid) * face_mean(own_, f, weights_, mesh_)};
 }
 
 SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface) const {
   const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real alpha_f = surface.alpha_f[f];
+  const auto in_series = [&](Real mu) { return 1 / (alpha_f / mu + (1 - alpha_f) / mu_.fluid); };
   const Vec3 du = surface.u[N] - surface.u[P];
-  const Sides side = sides(f, m);
-  const Tensor L = side.L + alpha_f * outer(side.a, m);  // mean over the line between the centres
-  const SymTensor D = twice_symmetric(L);                // 2 D
-  const Vec3 Dm = dot(D, m), e = along_surface(Dm, m);
+  const Sides side = sides(f, m, alpha_f);
+  const SymTensor D = twice_symmetric(side.common);  // 2 D
+  const Vec3 Dm = dot(D, m);
+  const Vec3 e = along_surface(dot(twice_symmetric(side.mean), m), m);
   const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights_, mesh_), m);
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
-  const Vec3 lent = along_surface((mu_least_ - mu_.solid) * dot(side.own, m), m);
-  const Real excess = mu_.solid - mu_.fluid, s = excess * dot(Dm, m);
-  const Real mu_h = 1 / (alpha_f / mu_least_ + (1 - alpha_f) / mu_.fluid);
-  const Real series = alpha_f * mu_h / mu_least_;
+  const Vec3 lent = along_surface(dot(side.lent, m), m);
+  const Real most = ratio_max * mu_.fluid;
+  const Real excess = std::min(mu_.solid, most) - mu_.fluid, s = excess * dot(Dm, m);
+  const Real mu_h = in_series(mu_least_), series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
-  const Vec3 e_mS =
-      along_surface(weights_.g[f] * (du - dot(L, along_surface(d, m))) +
-                        dot(m, weights_.k[f]) * dot(L, m) + dot(m, S) * dot(transpose(L), m),
-                    m);
+  const Vec3 e_mS = along_surface(weights_.g[f] * (du - dot(side.common, along_surface(d, m))) +
+                                      dot(m, weights_.k[f]) * dot(side.mean, m) +
+                                      dot(m, S) * dot(transpose(side.common), m),
+                                  m);
   // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
-  const Vec3 traction = (mu_h - mu_.fluid) * (e_mS + dot(e, S) * m) +
+  const Vec3 traction = (mu_h - mu_.fluid) * e_mS +
+                        ((in_series(std::min(mu_least_, most)) - mu_.fluid) * dot(e, S)) * m +
                         (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
   // + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I)
-  const Vec3 rest = (alpha_f * excess) * (dot(D, S) - shear(e, m, S)) - (alpha_f * s) * S;
-  const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(L), S);
+  const Vec3 rest =
+      (alpha_f * excess) * (dot(D, S) - shear(along_surface(Dm, m), m, S)) - (alpha_f * s) * S;
+  const Vec3 transposed = std::max(-excess, Real{0}) * dot(transpose(side.mean), S);
   return {traction + transposed + rest, s};
 }
 
@@ -199,7 +229,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
   const Real excess = std::abs(mu_.solid - mu_.fluid);
   const bool in = mu_.solid > mu_.fluid;
   const auto L_of = [&](Index c) -> const Tensor& {
-    return touch_[c] > 1 ? L_in_[c] : surface.L[c];
+    return touch_[c] > 1 ? L_viscous_[c] : surface.L[c];
   };
   for (const Index c : band.cells()) {
     const bool more_viscous = uncut(surface.alpha[c]);
@@ -229,7 +259,6 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_s
     if (norm2(surface.normal[c]) > 0) fit(surface, c);
   mesh_.halo.update(fitted_), mesh_.halo.update(L_), mesh_.halo.update(kink_);
   take_own_strain(surface, band);
-  mesh_.halo.update(L_in_);
   add_excess(force, rhie_chow_source, surface, pressure, band);
   add_transposed(force, surface, band);
   jump_force_.apply(force, rhie_chow_source, pressure, band);

@@ -47,11 +47,15 @@ struct Viscosities {
 ///     + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I) + alpha_c s_mu I,
 ///
 /// D^0 = D - (gammadot m + m gammadot) / 2, the same on both sides. A jump of the pressure balances
-/// the rise s_mu (alpha_N - alpha_P), which acts by calL_c and c_f (BalancedJumpForce). D comes
-/// from a least-squares fit of L . r + a (min(0, l + m . r) - min(0, l)), l the distance from the
-/// surface (`height`). Only in gammadot . m the difference along d is that of the face. mu_s counts
-/// as at least mu_f / 4, and the surplus times D of the solid's own side is subtracted. Nothing
-/// else would tie the fluid to a solid without viscosity.
+/// the rise s_mu (alpha_N - alpha_P), which acts by calL_c and c_f (BalancedJumpForce).
+///
+/// D^0, s_mu and the gradient along the surface come from cells of the more viscous side alone. The
+/// strain is small there, and an error of it counts by the viscosity of that side. On the other
+/// side gammadot comes from a least-squares fit of L . r + a (min(0, l + m . r) - min(0, l)), l the
+/// distance from the surface (`height`). Only in gammadot . m the difference along d is that of the
+/// face. mu_s counts as at least mu_f / 4, and the surplus times D of the solid's own side is
+/// subtracted. Nothing else would tie the fluid to a solid without viscosity. In D^0 and s_mu it
+/// counts as at most `ratio_max` mu_f.
 ///
 /// In uncut cells of the more viscous side the transposed gradient becomes a sum of fluxes too,
 /// |mu_s - mu_f| L_f^T . S with L of that side. On the other side it has no such fluxes. The flux
@@ -69,11 +73,11 @@ class SurfaceTraction {
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
              PressureStencil& pressure, const Band& band);
 
-  /// Beyond this ratio mu_s / mu_f the mean viscosity stays on quadrilaterals, hexahedra and
-  /// prisms: so large a stress, taken explicitly, makes the strain rough in slow flows. On
-  /// triangles and tetrahedra the mean viscosity does worse. There the disc in the cavity hardly
-  /// moves with a ratio of 100, and the explicit stress holds up to 200.
-  static constexpr Real ratio_max = 50;
+  /// Largest mu_s / mu_f in D^0 and s_mu. A larger explicit stress makes energy: with a ratio of
+  /// 200 a settling disc and sphere end. The strain that a surface resists with 50 mu_f is a
+  /// fiftieth of that of the fluid, so that the body is nearly as rigid. The shear along the
+  /// surface and the inner faces have the whole of mu_s.
+  static constexpr Real ratio_max = 20;
 
   /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
   /// fluid is the more viscous one. If the solid is, its implicit viscous term is enough.
@@ -101,6 +105,10 @@ class SurfaceTraction {
   void mark(const Surface& surface, const Band& band);
   void fit(const Surface& surface, Index c);
   void take_own_strain(const Surface& surface, const Band& band);
+  /// Continues `own` from touched cells with has_own_ to those without, by means over neighbours
+  /// in two rings; its halo.
+  template <class T>
+  void extend(CellField<T>& own, const Band& band);
   void add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
                   PressureStencil& pressure, const Band& band);
   void add_transposed(CellField<Vec3>& force, const Surface& surface, const Band& band) const;
@@ -111,13 +119,13 @@ class SurfaceTraction {
     Real s;
   };
   FaceExcess excess_at(Index f, const Surface& surface) const;
-  /// Gradient on the fluid's side, kink a and 2 D of the solid's own side at a face.
+  /// At a face: the mean gradient over the line between the centres, the gradient from which
+  /// follows what both sides have in common, and (mu_least - mu_s) 2 D of the solid's own side.
   struct Sides {
-    Tensor L;
-    Vec3 a;
-    SymTensor own;
+    Tensor mean, common;
+    SymTensor lent;
   };
-  Sides sides(Index f, const Vec3& m) const;
+  Sides sides(Index f, const Vec3& m, Real alpha_f) const;
 
   const Mesh& mesh_;
   const FaceWeights& weights_;
@@ -126,7 +134,8 @@ class SurfaceTraction {
   Real mu_least_;                 // mu_s as it counts in mu_h
   BalancedJumpForce jump_force_;  // of the rises of s_mu
   CellField<Real> touch_;         // 1: has a face at the surface; 2: and is uncut, more viscous
-  CellField<Tensor> L_, L_in_;    // fit at the surface; one-sided L of uncut cells there
+  CellField<Tensor> L_;           // fit at the surface, on the fluid's side
+  CellField<Tensor> L_viscous_;   // of the more viscous side
   CellField<Real> fitted_;        // 1: has a fit
   CellField<Vec3> kink_;          // a
   CellField<SymTensor> own_;      // 2 D of the solid's side
