@@ -10,8 +10,8 @@ namespace fsi {
 /// Each solid makes its one-sided velocity gradient from that of the flow, in its known cells and
 /// those around them (solid::InterfaceGradient). Where these cells are those of several solids, the
 /// result must not depend on the order of the solids. In a cell that is at least half of one solid,
-/// the gradient of this solid stays, or the mean of such solids where they overlap; in any other
-/// cell the mean of those of all solids that set it.
+/// the gradient of this solid stays, or the mean of such solids where they overlap. In any other
+/// cell the mean of those of all solids that set it counts.
 class SideGradients {
  public:
   /// Zero fields; mesh must outlive them.
