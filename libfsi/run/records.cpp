@@ -163,11 +163,21 @@ Real limit_code(const std::string& name) {
 
 Real dissipation(Solver& solver) {
   const Mesh& mesh = solver.mesh();
-  CellField<Real> mu(mesh, solver.physics().mu_f);
-  for (const Body& body : solver.bodies())
-    for (Index c = 0; c < mesh.n_owned; ++c)
-      mu[c] += body.alpha[c] * (body.mu - solver.physics().mu_f);
-  return analysis::dissipation(mu, solver.velocity_gradient(), mesh);
+  const Real mu_f = solver.physics().mu_f;
+  CellField<Real> mu(mesh, mu_f), mu_own(mesh);
+  CellField<Tensor> L_own(mesh);
+  Real of_solids = 0;
+  for (const Body& body : solver.bodies()) {
+    mu_own.fill(0);
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      const Tensor* own =
+          body.two_viscosities ? body.two_viscosities->traction.own_gradient(c) : nullptr;
+      if (own != nullptr) L_own[c] = *own, mu_own[c] = body.alpha[c] * body.mu;
+      mu[c] += body.alpha[c] * ((own != nullptr ? 0 : body.mu) - mu_f);
+    }
+    of_solids += analysis::dissipation(mu_own, L_own, mesh);
+  }
+  return of_solids + analysis::dissipation(mu, solver.velocity_gradient(), mesh);
 }
 
 std::vector<std::string> names(const std::vector<Entry>& row) {

@@ -40,7 +40,8 @@ std::vector<Real> whole_diameters(const Solver& solver);
 std::vector<Entry> flow_row(Solver& solver, const std::vector<Real>& diameters, Real elastic_energy,
                             const Limit& limit, Real dt, Real wall_per_step);
 
-/// Collective. The integral of 2 mu D : D, mu by the fractions of the cell.
+/// Collective. The integral of 2 mu D : D. A more viscous solid has the D of its own side in cells
+/// at its surface, by the last step; D of all else is that of the cell.
 Real dissipation(Solver& solver);
 
 /// Figures by which the result of a solid is judged.

@@ -92,6 +92,12 @@ class SurfaceTraction {
   void add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
                          const FaceField<Real>& alpha_f, const Band& band) const;
 
+  /// The velocity gradient of a more viscous solid in cell c by the last `apply`: in cells at the
+  /// surface, from the solid alone. Null in other cells.
+  const Tensor* own_gradient(Index c) const {
+    return mu_.solid > mu_.fluid && has_own_[c] > 0 ? &L_viscous_[c] : nullptr;
+  }
+
   /// mu_s / mu_f of the two in series.
   Real in_series() const { return mu_least_ / mu_.fluid; }
 

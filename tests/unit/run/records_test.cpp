@@ -72,5 +72,18 @@ TEST(SurfaceArea, OfABoxThatFillsWholeCells) {
   }
 }
 
+// A disc of a hundred times the viscosity turns in a shear flow and takes no strain. The fluid
+// around it dissipates 1 + 2 phi of what it does alone [Einstein's coefficient in two dimensions].
+TEST(Dissipation, IsThatOfTheFluidAroundAVeryViscousDisc) {
+  const Mesh mesh = test::read_box({.n = {32, 32, 0}, .periodic = {"left", "right"}});
+  Solver solver(mesh, {.rho = 1, .mu_f = 1},
+                {.conditions = {{"top", Wall{{0.5, 0, 0}}}, {"bottom", Wall{{-0.5, 0, 0}}}}});
+  solver.start([](const Vec3& x) { return Vec3{x.y - 0.5, 0, 0}; });
+  solver.put_solid(
+      {.shape = shapes::translate(shapes::sphere(0.2), {0.51, 0.5, 0}), .G = 10, .mu = 100});
+  for (int i = 0; i < 60; ++i) solver.step(2e-3);
+  EXPECT_NEAR(dissipation(solver), 1 + 2 * std::acos(-1.0) * 0.04, 0.15);
+}
+
 }  // namespace
 }  // namespace fsi
