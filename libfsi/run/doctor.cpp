@@ -42,7 +42,7 @@ void tell_of_patches(const Mesh& mesh) {
     const PatchFigures p = patch_figures(mesh, patch);
     const std::string shape = p.flat ? "flat"
                               : p.normal == Vec3{}
-                                  ? "closed round"
+                                  ? "closed round, or opposite sides"
                                   : print("not flat, to %.1f deg from its mean", p.degrees);
     say(print("%-16s %10lld %12.6g %12.6g  %-34s %-34s %s", patch.name.c_str(),
               static_cast<long long>(p.faces), p.area, p.diameter, text_of(p.centre).c_str(),

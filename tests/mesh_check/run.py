@@ -55,7 +55,7 @@ def check_report(text, mesh):
     check(all(np.allclose(centre[name], (x, 0.5, 0.5), atol=0.02)
               for name, x in (("inlet", 0), ("wall", 2.5), ("outlet", 5))), f"and its centre: {centre}")
     check("(-1, 0, 0)" in patches["inlet"] and "(1, 0, 0)" in patches["outlet"] and
-          patches["inlet"].endswith("flat") and patches["wall"].endswith("closed round"),
+          patches["inlet"].endswith("flat") and patches["wall"].endswith("closed round, or opposite sides"),
           "normals point outward, the pipe's wall closes round")
     check(any("from wall to wall" in line and line.startswith("cells across") for line in lines),
           "the passage is told from wall to wall")
