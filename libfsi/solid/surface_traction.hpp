@@ -49,12 +49,14 @@ struct Viscosities {
 /// D^0 = D - (gammadot m + m gammadot) / 2, the same on both sides. A jump of the pressure balances
 /// the rise s_mu (alpha_N - alpha_P), which acts by calL_c and c_f (BalancedJumpForce).
 ///
-/// D^0, s_mu and the gradient along the surface come from cells of the more viscous side alone. The
-/// strain is small there, and an error of it counts by the viscosity of that side. On the other
-/// side gammadot comes from a least-squares fit of L . r + a (min(0, l + m . r) - min(0, l)), l the
-/// distance from the surface (`height`). Only in gammadot . m the difference along d is that of the
-/// face. mu_s counts as at least mu_f / 4, and the surplus times D of the solid's own side is
-/// subtracted. Nothing else would tie the fluid to a solid without viscosity. In D^0 and s_mu it
+/// D comes from a least-squares fit of L . r + a (min(0, l + m . r) - min(0, l)), l the distance
+/// from the surface (`height`). If the solid is the more viscous one, D^0, s_mu and the gradient
+/// along the surface come from its own cells alone, and so does its part of gammadot. Its strain is
+/// small, and an error of it counts by mu_s. In gammadot . m the difference along d is that of the
+/// face.
+///
+/// mu_s counts as at least mu_f / 4, and the surplus times D of the solid's own side is subtracted.
+/// Nothing else would tie the fluid to a solid without viscosity. In D^0, s_mu and m gammadot it
 /// counts as at most `ratio_max` mu_f.
 ///
 /// In uncut cells of the more viscous side the transposed gradient becomes a sum of fluxes too,
@@ -73,10 +75,10 @@ class SurfaceTraction {
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
              PressureStencil& pressure, const Band& band);
 
-  /// Largest mu_s / mu_f in D^0 and s_mu. A larger explicit stress makes energy: with a ratio of
-  /// 200 a settling disc and sphere end. The strain that a surface resists with 50 mu_f is a
-  /// fiftieth of that of the fluid, so that the body is nearly as rigid. The shear along the
-  /// surface and the inner faces have the whole of mu_s.
+  /// Largest mu_s / mu_f in D^0, s_mu and m gammadot. A larger explicit stress of the gradients in
+  /// cells makes energy in slow flows. A layer of a cell that resists with 20 mu_f strains by a
+  /// twentieth of what the fluid does, so that the body is nearly as rigid. gammadot m, which has
+  /// the difference along d, and the inner faces have the whole of mu_s.
   static constexpr Real ratio_max = 20;
 
   /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
@@ -141,11 +143,11 @@ class SurfaceTraction {
   BalancedJumpForce jump_force_;  // of the rises of s_mu
   CellField<Real> touch_;         // 1: has a face at the surface; 2: and is uncut, more viscous
   CellField<Tensor> L_;           // fit at the surface, on the fluid's side
-  CellField<Tensor> L_viscous_;   // of the more viscous side
+  CellField<Tensor> L_viscous_;   // of the more viscous side, at the surface
   CellField<Real> fitted_;        // 1: has a fit
   CellField<Vec3> kink_;          // a
-  CellField<SymTensor> own_;      // 2 D of the solid's side
-  CellField<Real> has_own_;       // 1: by a fit, 2: a mean over neighbours
+  CellField<SymTensor> own_;      // 2 D of a less viscous solid
+  CellField<Real> has_own_;       // what the solid alone tells: 1 by a fit, 2 and 3 by neighbours
   std::vector<Index> last_cells_, last_faces_;
 };
 
