@@ -43,17 +43,18 @@ struct Errors {
 };
 
 /// n cells in the radius.
-Errors errors(const Exact& exact, Index n) {
+Errors errors(const Exact& exact, Index n, bool simplex = false, int steps = 40) {
   const Vec3 centre{2.013, 2.027, 0};
   constexpr Real scale = 1e-3, rho = 1e-3, dt = 1e-3;
-  const Mesh mesh = test::read_box({.n = {4 * n, 4 * n, 0}, .length = {4, 4, 1}, .periodic = {}});
+  const Mesh mesh = test::read_box(
+      {.n = {4 * n, 4 * n, 0}, .length = {4, 4, 1}, .simplex = simplex, .periodic = {}});
   const FixedVelocity far{[&](const Vec3& x, Real) { return scale * exact.u(x - centre); }};
   Solver solver(mesh, {.rho = rho, .mu_f = 1},
                 {.conditions = {{"bottom", far}, {"top", far}, {"left", far}, {"right", far}}});
   solver.start([&](const Vec3& x) { return scale * exact.u(x - centre); });
   solver.put_solid(
       {.shape = shapes::translate(shapes::sphere(1), centre), .G = 1e-9, .mu = exact.ratio});
-  for (int step = 0; step < 40; ++step) solver.step(dt);
+  for (int step = 0; step < steps; ++step) solver.step(dt);
   const CellField<Tensor>& L = solver.velocity_gradient();
   Sum square, volume, strain, middle;
   for (Index c = 0; c < mesh.n_owned; ++c) {
@@ -153,6 +154,20 @@ TEST(Inclusion, ElasticUnderALastingLoad) {
 }
 
 TEST(Inclusion, MuchMoreViscous) { expect(30, 0, 1e-2, 0.1); }
+
+void expect_steady(Real ratio, Real u, Real strain) {
+  const Errors late = errors({ratio, 0}, 8, true, 160);
+  std::printf("triangles, viscosity ratio %g, step 160: u %.2e; strain %+.2f %%\n", ratio, late.u,
+              100 * late.strain);
+  EXPECT_LE(late.u, u);
+  EXPECT_LE(std::abs(late.strain), strain);
+}
+
+/// The explicit stress does not grow from step to step.
+TEST(Inclusion, SteadyOnTriangles) {
+  expect_steady(20, 2.5e-2, 0.05);
+  expect_steady(100, 7e-2, 0.05);
+}
 
 }  // namespace
 }  // namespace fsi
