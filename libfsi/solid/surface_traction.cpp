@@ -267,11 +267,20 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_s
 
 void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
                                         const FaceField<Real>& alpha_f, const Band& band) const {
-  if (mu_.solid > mu_.fluid) return;
+  const bool in = mu_.solid > mu_.fluid;
   for (const Index f : band.faces()) {
-    Real touched = touch_[mesh_.owner[f]];
-    if (f < mesh_.n_internal) touched += touch_[mesh_.neighbour[f]];
+    const Index P = mesh_.owner[f];
+    Real touched = touch_[P];
+    bool simplex = mesh_.simplex(P);
+    if (f < mesh_.n_internal) {
+      const Index N = mesh_.neighbour[f];
+      touched += touch_[N], simplex = simplex || mesh_.simplex(N);
+    }
     if (touched == 0) continue;
+    if (in) {
+      if (simplex && f < mesh_.n_internal) stiff[f] += implicit_share * (mu_.solid - mu_.fluid);
+      continue;
+    }
     // mu_h / mu_s
     const Real weight = 1 / (alpha_f[f] + (1 - alpha_f[f]) * mu_least_ / mu_.fluid);
     stiff[f] += kappa[f] * (weight - 1) + mu_.fluid - mu_.solid;

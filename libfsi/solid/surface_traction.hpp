@@ -81,10 +81,18 @@ class SurfaceTraction {
   /// the difference along d, and the inner faces have the whole of mu_s.
   static constexpr Real ratio_max = 20;
 
+  /// Implicit part C_s of mu_s - mu_f at the faces of triangles and tetrahedra at the surface, if
+  /// the solid is the more viscous one. Between cells with little solid the mean viscosity is
+  /// small, and the explicit stress is not. With C_s = 0 a disc of mu_s / mu_f = 12 in Stokes flow
+  /// becomes unstable there. On other cells one of 100 does not, one of 150 does.
+  static constexpr Real implicit_share = 0.25;
+
   /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
-  /// fluid is the more viscous one. If the solid is, its implicit viscous term is enough.
+  /// fluid is the more viscous one, by the first line. If the solid is, by the second one
+  /// on triangles and tetrahedra alone.
   ///
   ///   stiff_f <- stiff_f + kappa_f (mu_h / mu_s - 1) + C (mu_f - mu_s),   C = 1
+  ///   stiff_f <- stiff_f + C_s (mu_s - mu_f)
   ///
   /// stiff: that of all solids, kappa before the first of them is added.
   /// The elastic stress of such a face has the factor alpha_f mu_h / mu_s, where kappa_f has
