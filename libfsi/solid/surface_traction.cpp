@@ -132,7 +132,7 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
   for (const Index c : band.cells()) {
     if (touch_[c] == 0) continue;
     L_viscous_[c] = surface.L[c];
-    if (viscous(c)) {
+    if (in ? viscous(c) : touch_[c] > 1) {
       L_viscous_[c] = one_sided_gradient(surface.L, surface.u, viscous, inner, nowhere, mesh_, c);
       has_own_[c] = in ? 1 : 0;
     }
@@ -178,7 +178,7 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
   const Vec3 lent = along_surface(dot(side.lent, m), m);
-  const Real most = ratio_max * mu_.fluid;
+  const Real most = explicit_ratio_max * mu_.fluid;
   const Real excess = std::min(mu_.solid, most) - mu_.fluid, s = excess * dot(Dm, m);
   const Real mu_h = in_series(mu_least_), series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
