@@ -337,13 +337,13 @@ void put_solids(Solver& solver, const Case& setup) {
                    "fsi: warning: %s: -solid_kinematics left_cauchy_green becomes unstable on "
                    "triangles and tetrahedra; take log_conformation\n",
                    s.shape_name.c_str());
-    constexpr Real most = solid::SurfaceTraction::ratio_max;
+    constexpr Real most = 50;
     if (!body.two_viscosities && body.mu > most * solver.physics().mu_f)
       std::fprintf(stderr,
                    "fsi: warning: %s: its viscosity is %g times the fluid's; with "
                    "-solid_kinematics left_cauchy_green the friction at the surface is an "
                    "approximation, beyond %g times a wrong one; take log_conformation or "
-                   "reference_map (doc/verification/stiff.md)\n",
+                   "reference_map (doc/theory/two_viscosities.md)\n",
                    name.c_str(), body.mu / solver.physics().mu_f, most);
   }
 }

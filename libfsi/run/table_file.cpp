@@ -163,8 +163,9 @@ std::string doubt_about(const std::vector<std::vector<Real>>& rows, Real period,
                  first, last, end);
   const Real a = rows.back()[1], b = rows.front()[1];
   // Rounding may part the period from the times.
-  if (period > 0 && end > first + period && last - first > (1 - 1e-9) * period &&
-      std::abs(a - b) > jump * range)
+  if (period == 0 || last - first < (1 - 1e-9) * period) return "";
+  const Real soonest = first - period * (std::ceil(first / period) - 1);  // after t = 0
+  if (end > soonest && std::abs(a - b) > jump * range)
     return print(
         "its values jump from %g to %g after each period of %g, where its last row and "
         "its first meet: should the last row repeat the first?",

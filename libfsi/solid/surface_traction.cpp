@@ -132,7 +132,7 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
   for (const Index c : band.cells()) {
     if (touch_[c] == 0) continue;
     L_viscous_[c] = surface.L[c];
-    if (viscous(c)) {
+    if (in ? viscous(c) : touch_[c] > 1) {
       L_viscous_[c] = one_sided_gradient(surface.L, surface.u, viscous, inner, nowhere, mesh_, c);
       has_own_[c] = in ? 1 : 0;
     }
@@ -168,7 +168,7 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real alpha_f = surface.alpha_f[f];
-  const auto in_series = [&](Real mu) { return 1 / (alpha_f / mu + (1 - alpha_f) / mu_.fluid); };
+  const auto harmonic = [&](Real mu) { return 1 / (alpha_f / mu + (1 - alpha_f) / mu_.fluid); };
   const Vec3 du = surface.u[N] - surface.u[P];
   const Sides side = sides(f, m, alpha_f);
   const SymTensor D = twice_symmetric(side.common);  // 2 D
@@ -178,9 +178,9 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
   const Vec3 lent = along_surface(dot(side.lent, m), m);
-  const Real most = ratio_max * mu_.fluid;
+  const Real most = explicit_ratio_max * mu_.fluid;
   const Real excess = std::min(mu_.solid, most) - mu_.fluid, s = excess * dot(Dm, m);
-  const Real mu_h = in_series(mu_least_), series = alpha_f * mu_h / mu_least_;
+  const Real mu_h = harmonic(mu_least_), series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
   const Vec3 e_mS = along_surface(weights_.g[f] * (du - dot(side.common, along_surface(d, m))) +
                                       dot(m, weights_.k[f]) * dot(side.mean, m) +
@@ -188,7 +188,7 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
                                   m);
   // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
   const Vec3 traction = (mu_h - mu_.fluid) * e_mS +
-                        ((in_series(std::min(mu_least_, most)) - mu_.fluid) * dot(e, S)) * m +
+                        ((harmonic(std::min(mu_least_, most)) - mu_.fluid) * dot(e, S)) * m +
                         (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
   // + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I)
   const Vec3 rest =

@@ -57,7 +57,7 @@ struct Viscosities {
 ///
 /// mu_s counts as at least mu_f / 4, and the surplus times D of the solid's own side is subtracted.
 /// Nothing else would tie the fluid to a solid without viscosity. In D^0, s_mu and m gammadot it
-/// counts as at most `ratio_max` mu_f.
+/// counts as at most `explicit_ratio_max` mu_f.
 ///
 /// In uncut cells of the more viscous side the transposed gradient becomes a sum of fluxes too,
 /// |mu_s - mu_f| L_f^T . S with L of that side. On the other side it has no such fluxes. The flux
@@ -74,12 +74,6 @@ class SurfaceTraction {
   /// that of the elastic stress, force and c_f cleared there.
   void apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source, const Surface& surface,
              PressureStencil& pressure, const Band& band);
-
-  /// Largest mu_s / mu_f in D^0, s_mu and m gammadot. A larger explicit stress of the gradients in
-  /// cells makes energy in slow flows. A layer of a cell that resists with 20 mu_f strains by a
-  /// twentieth of what the fluid does, so that the body is nearly as rigid. gammadot m, which has
-  /// the difference along d, and the inner faces have the whole of mu_s.
-  static constexpr Real ratio_max = 20;
 
   /// Implicit part C_s of mu_s - mu_f at the faces of triangles and tetrahedra at the surface, if
   /// the solid is the more viscous one. Between cells with little solid the mean viscosity is
@@ -112,6 +106,12 @@ class SurfaceTraction {
   Real in_series() const { return mu_least_ / mu_.fluid; }
 
  private:
+  /// Largest mu_s / mu_f in D^0, s_mu and m gammadot. A larger explicit stress of the gradients in
+  /// cells makes energy in slow flows. A layer of a cell that resists with 20 mu_f strains by a
+  /// twentieth of what the fluid does, so that the body is nearly as rigid. gammadot m, which has
+  /// the difference along d, and the inner faces have the whole of mu_s.
+  static constexpr Real explicit_ratio_max = 20;
+
   void clear(const Band& band);
   /// Whether the surface lies between the centres of face f, beyond rounding of alpha, and the
   /// viscosity of f is that of this solid and the fluid alone.

@@ -171,7 +171,7 @@ void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
         mesh, zone, solid::BoundarySides{.given = on_faces(walls, mesh), .symmetry = mirror});
     kink_profile.emplace(mesh);
   }
-  if (extended() && mu != physics.mu_f)
+  if (extended() && mu != physics.mu_f && physics.mu_f > 0)
     two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);

@@ -61,7 +61,7 @@ struct SolidPatches {
 /// A solid.
 struct Body {
   /// Collective. Fills the undeformed shape. If its viscosity is not the fluid's, the surface gets
-  /// an explicit traction, but with left_cauchy_green.
+  /// an explicit traction, but not with left_cauchy_green nor beside a fluid without viscosity.
   Body(const Mesh& mesh, const FaceWeights& weights, const Solid& solid, const Physics& physics,
        const SolidPatches& patches = {});
 

@@ -39,7 +39,7 @@ Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh&
   for (bool nearer = mesh.translation.size() > 1; nearer;) {
     nearer = false;
     for (const Vec3& shift : mesh.translation) {
-      const Vec3 there = laps + shift;  // exact, so that the way to an image leaves no rounding
+      const Vec3 there = laps + shift;  // exact for two periods: no rounding of the way to it
       const Real value = shape(xi + there);
       if (!(value < least)) continue;
       least = value, laps = there, nearer = true;

@@ -108,6 +108,8 @@ TEST(Series, DoubtsALastRowThatDoesNotRepeatTheFirst) {
   EXPECT_NE(doubt_about(rows, 1, 4).find("jump from 2 to 1 after each period of 1"),
             std::string::npos);
   EXPECT_EQ(doubt_about(rows, 1, 0.9), "") << "the run ends before";
+  EXPECT_NE(doubt_about({{0.5, 1}, {1, 3}, {1.5, 2}}, 1, 0.9), "")
+      << "the table begins after t = 0";
   EXPECT_EQ(doubt_about(rows, 1.2, 4), "") << "a line leads back";
   EXPECT_EQ(doubt_about(rows, 0, 4), "") << "no period";
 }

@@ -109,6 +109,28 @@ TEST(SurfaceTraction, ALinearVelocityWithAKinkLeavesNoForce) {
     }
 }
 
+// The shear along the surface has the whole viscosity at any ratio.
+TEST(SurfaceTraction, AShearAlongAVeryViscousSolidLeavesNoForce) {
+  for (const Real y_0 : {1.0, 1.1}) EXPECT_LT(left_over(y_0, {150, 1}, 0), 1e-9 * 150) << y_0;
+}
+
+// Nothing acts in series with a fluid without viscosity.
+TEST(SurfaceTraction, AFluidWithoutViscosityHasNone) {
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {16, 16, 0}, .simplex = simplex});
+    Solver solver(
+        mesh, {.rho = 1, .mu_f = 0},
+        {.conditions = {{"left", Wall{}}, {"right", Wall{}}, {"bottom", Wall{}}, {"top", Wall{}}}});
+    solver.start([](const Vec3& x) { return Vec3{0.5 - x.y, x.x - 0.5, 0}; });
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::box({0.5, 0.5, 9}), {0.5, 0.5, 0}), .G = 1, .mu = 0.1});
+    for (int i = 0; i < 3; ++i) solver.step(1e-3);
+    Real most = 0;
+    for (Index c = 0; c < mesh.n_owned; ++c) most = std::max(most, norm(solver.state().u[c]));
+    EXPECT_LT(global_max(most), 1);
+  }
+}
+
 // The traction of the law in series with the viscous one, its normal part borne by the pressure.
 TEST(SurfaceTraction, TakesTheStressOfTheLaw) {
   for (const solid::Law& law :
