@@ -28,12 +28,14 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
   return sum.total();
 }
 
+Real twice_strain_squared(const Tensor& L) {
+  const Tensor twice_D = L + transpose(L);
+  return trace(dot(twice_D, twice_D)) / 2;
+}
+
 Real dissipation(const CellField<Real>& mu, const CellField<Tensor>& L, const Mesh& mesh) {
   Sum sum;
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    const Tensor twice_D = L[c] + transpose(L[c]);
-    sum.add(mu[c] * mesh.V[c] / 2 * trace(dot(twice_D, twice_D)));
-  }
+  for (Index c = 0; c < mesh.n_owned; ++c) sum.add(mu[c] * mesh.V[c] * twice_strain_squared(L[c]));
   return sum.total();
 }
 

@@ -26,6 +26,8 @@ Real kinetic_energy(const CellField<Real>& rho, const CellField<Vec3>& u, const 
 /// [Matsumiya25] (25). Every cell for which L is set, owned and halo.
 void q_criterion(CellField<Real>& Q, const CellField<Tensor>& L);
 
+/// 2 D : D, D the symmetric part of L: what a viscosity of 1 dissipates per volume and time.
+Real twice_strain_squared(const Tensor& L);
 /// integral 2 mu D : D, D the symmetric part of L: the energy that viscosity dissipates per time.
 Real dissipation(const CellField<Real>& mu, const CellField<Tensor>& L, const Mesh& mesh);
 

@@ -164,20 +164,18 @@ Real limit_code(const std::string& name) {
 Real dissipation(Solver& solver) {
   const Mesh& mesh = solver.mesh();
   const Real mu_f = solver.physics().mu_f;
-  CellField<Real> mu(mesh, mu_f), mu_own(mesh);
-  CellField<Tensor> L_own(mesh);
-  Real of_solids = 0;
-  for (const Body& body : solver.bodies()) {
-    mu_own.fill(0);
+  CellField<Real> mu(mesh, mu_f);
+  Sum of_solids;
+  for (const Body& body : solver.bodies())
     for (Index c = 0; c < mesh.n_owned; ++c) {
       const Tensor* own =
           body.two_viscosities ? body.two_viscosities->traction.own_gradient(c) : nullptr;
-      if (own != nullptr) L_own[c] = *own, mu_own[c] = body.alpha[c] * body.mu;
-      mu[c] += body.alpha[c] * ((own != nullptr ? 0 : body.mu) - mu_f);
+      const Real part = body.alpha[c];
+      mu[c] += part * ((own != nullptr ? 0 : body.mu) - mu_f);
+      if (own != nullptr)
+        of_solids.add(part * body.mu * mesh.V[c] * analysis::twice_strain_squared(*own));
     }
-    of_solids += analysis::dissipation(mu_own, L_own, mesh);
-  }
-  return of_solids + analysis::dissipation(mu, solver.velocity_gradient(), mesh);
+  return of_solids.total() + analysis::dissipation(mu, solver.velocity_gradient(), mesh);
 }
 
 std::vector<std::string> names(const std::vector<Entry>& row) {
