@@ -116,7 +116,8 @@ TimeSetup read_time(Options& options) {
   time.courant = options.real(
       "time_courant", 0.5,
       {.help = "largest Courant number; with upwind convection it is 0.25 at most in cells "
-               "other than triangles and tetrahedra",
+               "other than triangles and tetrahedra, and beside a solid of r times the "
+               "fluid's viscosity (2.5 / r)^(1/2)",
        .unit = "",
        .max = 1,
        .positive = true});

@@ -50,6 +50,8 @@ Real Solver::carried_dt() const {
     rate = global_max(rate);
     // body.t + body.dt = t + time_offset dt
     if (rate > 0) least = std::min(least, (1 / rate - (state_.t - body.t)) / body.time_offset());
+    if (rate > 0 && body.two_viscosities)
+      least = std::min(least, body.two_viscosities->traction.courant_max() / rate);
   }
   return least;
 }
