@@ -55,13 +55,40 @@ void SurfaceTraction::clear(const Band& band) {
   last_faces_ = band.faces();
 }
 
-bool SurfaceTraction::at_surface(const Surface& surface, Index f) const {
-  if (f >= mesh_.n_internal || norm2(surface.normal_f[f]) == 0) return false;
-  const Real a = surface.alpha[mesh_.owner[f]], b = surface.alpha[mesh_.neighbour[f]];
-  if (!is_cut(a) && !is_cut(b) && std::abs(a - b) <= 0.5) return false;
+bool SurfaceTraction::separates(const CutFaces& cut, Index f) const {
+  if (f >= mesh_.n_internal || norm2(cut.normal[f]) == 0) return false;
+  const Real a = cut.alpha[mesh_.owner[f]], b = cut.alpha[mesh_.neighbour[f]];
+  return is_cut(a) || is_cut(b) || std::abs(a - b) > 0.5;
+}
+
+bool SurfaceTraction::is_own(Real mu, Real own) const {
   constexpr Real rounding = 1e-6;  // of mu_s - mu_f
-  const Real excess = mu_.solid - mu_.fluid, own = excess * (a + weights_.lambda[f] * (b - a));
-  return std::abs(surface.mu[f] - mu_.fluid - own) <= rounding * std::abs(excess);
+  return std::abs(mu - own) <= rounding * std::abs(mu_.solid - mu_.fluid);
+}
+
+Real SurfaceTraction::mean(const CutFaces& cut, Index f) const {
+  return mu_.fluid + (mu_.solid - mu_.fluid) * face_mean(cut.alpha, f, weights_, mesh_);
+}
+
+Real SurfaceTraction::harmonic(Real alpha_f, Real mu) const {
+  return 1 / (alpha_f / mu + (1 - alpha_f) / mu_.fluid);
+}
+
+Real SurfaceTraction::bounded(const CutFaces& cut, Index f) const {
+  const Real whole = mean(cut, f);
+  if (mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(mesh_.neighbour[f])) return whole;
+  return std::min(whole, harmonic(cut.alpha_f[f], mu_least_) + explicit_ratio_max * mu_.fluid);
+}
+
+void SurfaceTraction::bound_viscosity(FaceField<Real>& mu, const CutFaces& cut,
+                                      const Band& band) const {
+  for (const Index f : band.faces())
+    if (separates(cut, f) && is_own(mu[f], mean(cut, f))) mu[f] = bounded(cut, f);
+}
+
+bool SurfaceTraction::at_surface(const Surface& surface, Index f) const {
+  const CutFaces cut{surface.alpha_f, surface.normal_f, surface.alpha};
+  return separates(cut, f) && is_own(surface.mu[f], bounded(cut, f));
 }
 
 void SurfaceTraction::mark(const Surface& surface, const Band& band) {
@@ -168,7 +195,6 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
   const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
   const Real alpha_f = surface.alpha_f[f];
-  const auto harmonic = [&](Real mu) { return 1 / (alpha_f / mu + (1 - alpha_f) / mu_.fluid); };
   const Vec3 du = surface.u[N] - surface.u[P];
   const Sides side = sides(f, m, alpha_f);
   const SymTensor D = twice_symmetric(side.common);  // 2 D
@@ -180,16 +206,17 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Vec3 lent = along_surface(dot(side.lent, m), m);
   const Real most = explicit_ratio_max * mu_.fluid;
   const Real excess = std::min(mu_.solid, most) - mu_.fluid, s = excess * dot(Dm, m);
-  const Real mu_h = harmonic(mu_least_), series = alpha_f * mu_h / mu_least_;
+  const Real mu_h = harmonic(alpha_f, mu_least_), series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
   const Vec3 e_mS = along_surface(weights_.g[f] * (du - dot(side.common, along_surface(d, m))) +
                                       dot(m, weights_.k[f]) * dot(side.mean, m) +
                                       dot(m, S) * dot(transpose(side.common), m),
                                   m);
   // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
-  const Vec3 traction = (mu_h - mu_.fluid) * e_mS +
-                        ((harmonic(std::min(mu_least_, most)) - mu_.fluid) * dot(e, S)) * m +
-                        (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
+  const Vec3 traction =
+      (mu_h - mu_.fluid) * e_mS +
+      ((harmonic(alpha_f, std::min(mu_least_, most)) - mu_.fluid) * dot(e, S)) * m +
+      (series - alpha_f) * shear(Gb, m, S) - series * shear(lent, m, S);
   // + alpha_f ((mu_s - mu_f) 2 D^0 - s_mu I)
   const Vec3 rest =
       (alpha_f * excess) * (dot(D, S) - shear(along_surface(Dm, m), m, S)) - (alpha_f * s) * S;

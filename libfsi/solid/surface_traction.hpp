@@ -9,6 +9,7 @@
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solid/balanced_jump_force.hpp"
+#include "libfsi/solid/flow_snapshot.hpp"
 
 namespace fsi::solid {
 
@@ -23,7 +24,7 @@ struct Surface {
   const FaceField<Vec3>& normal_f;  ///< m at the faces, zero away from the surface
   const CellField<Vec3>& normal;  ///< m in the cells, out of the solid; zero away from the surface
   const CellField<Real>& height;  ///< distance l of the cell's centre from the surface
-  const FaceField<Real>& mu;      ///< mean viscosity, as in the momentum equation
+  const FaceField<Real>& mu;      ///< viscosity, as in the momentum equation
 };
 
 /// The two viscosities.
@@ -79,7 +80,7 @@ class SurfaceTraction {
   /// Implicit part C_s of mu_s - mu_f at the faces of triangles and tetrahedra at the surface, if
   /// the solid is the more viscous one. Between cells with little solid the mean viscosity is
   /// small, and the explicit stress is not. With C_s = 0 a disc of mu_s / mu_f = 12 in Stokes flow
-  /// becomes unstable there. On other cells one of 100 does not, one of 150 does.
+  /// becomes unstable there. On other cells one of 200 does not.
   static constexpr Real implicit_share = 0.25;
 
   /// After apply: makes the explicit stress stable at the faces of cells at the surface, if the
@@ -96,6 +97,16 @@ class SurfaceTraction {
   /// mu_s / mu_f = 1e-4 in Stokes flow becomes unstable, with 0.3 it does not.
   void add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
                          const FaceField<Real>& alpha_f, const Band& band) const;
+
+  /// Before apply and the momentum equation: lowers mu of the faces at the surface, but those of
+  /// triangles and tetrahedra, to
+  ///
+  ///   mu <- min(mu, mu_h + `explicit_ratio_max` mu_f).
+  ///
+  /// The explicit stress is the difference to the exact one, mu_h and at most `explicit_ratio_max`
+  /// mu_f of the cells' gradients. An implicit mu far above both slows each change of u down, and
+  /// the explicit difference, extrapolated, makes energy in Stokes flow with mu_s / mu_f of 150.
+  void bound_viscosity(FaceField<Real>& mu, const CutFaces& cut, const Band& band) const;
 
   /// The velocity gradient of a more viscous solid in cell c by the last `apply`: in cells at the
   /// surface, from the solid alone. Null in other cells.
@@ -123,6 +134,15 @@ class SurfaceTraction {
   /// Whether the surface lies between the centres of face f, beyond rounding of alpha, and the
   /// viscosity of f is that of this solid and the fluid alone.
   bool at_surface(const Surface& surface, Index f) const;
+  /// Whether the surface lies between the centres of face f, beyond rounding of alpha.
+  bool separates(const CutFaces& cut, Index f) const;
+  /// Whether mu is that of this solid and the fluid alone, `own`, but for rounding.
+  bool is_own(Real mu, Real own) const;
+  /// mu of face f as flow::mixture_viscosity sets it, and as `bound_viscosity` leaves it.
+  Real mean(const CutFaces& cut, Index f) const;
+  Real bounded(const CutFaces& cut, Index f) const;
+  /// mu_h with mu in place of mu_s.
+  Real harmonic(Real alpha_f, Real mu) const;
   /// Whether a cell is uncut and on the more viscous side.
   bool uncut(Real alpha) const;
   void mark(const Surface& surface, const Band& band);

@@ -206,6 +206,10 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
     }
     flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
   }
+  for (const Body& body : bodies_)
+    if (body.two_viscosities)
+      body.two_viscosities->traction.bound_viscosity(mu, {body.alpha_f, body.normal_f, body.alpha},
+                                                     body.band);
   set_wall_parabola();
   if (!modes_.films) return;
   if (!modes_.mu_varies)

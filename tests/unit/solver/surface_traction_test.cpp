@@ -64,6 +64,8 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
   gradient(L, u, u_b, of_u, mesh);
   FaceField<Real> mu_f(mesh), rhie_chow_source(mesh);
   flow::mixture_viscosity(mu_f, body.alpha, mu.fluid, mu.solid, weights, mesh);
+  solid::SurfaceTraction traction(mesh, weights, elastic.G, mu);
+  traction.bound_viscosity(mu_f, {body.alpha_f, body.normal_f, body.alpha}, body.band);
   const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
   const flow::ViscousBoundary walls{none, none};
   VertexMean<Tensor> mean(mesh, of_u);
@@ -79,7 +81,6 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
     body.elastic_force.apply(force, rhie_chow_source,
                              {body.T(), body.alpha, &body.alpha_f, &body.normal_f}, weights, of_p,
                              body.band, body.grad);
-  solid::SurfaceTraction traction(mesh, weights, elastic.G, mu);
   traction.apply(
       force, rhie_chow_source,
       {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f}, of_p,
@@ -112,6 +113,30 @@ TEST(SurfaceTraction, ALinearVelocityWithAKinkLeavesNoForce) {
 // The shear along the surface has the whole viscosity at any ratio.
 TEST(SurfaceTraction, AShearAlongAVeryViscousSolidLeavesNoForce) {
   for (const Real y_0 : {1.0, 1.1}) EXPECT_LT(left_over(y_0, {150, 1}, 0), 1e-9 * 150) << y_0;
+}
+
+// The surface lies in mid-cell, at y = 1.1, between the centres of the faces at y = 1.
+TEST(SurfaceTraction, LowersTheViscosityOfFacesAtTheSurface) {
+  for (const Real ratio : {30.0, 200.0}) {
+    const Mesh mesh = test::read_box({.n = {8, 10, 0}, .length = {1.6, 2, 1}});
+    const FaceWeights weights(mesh);
+    const Body body(mesh, weights, {.shape = shapes::box({40, 2.2, 40}), .G = 0}, {});
+    const solid::SurfaceTraction traction(mesh, weights, 0, {ratio, 1});
+    FaceField<Real> mu(mesh);
+    flow::mixture_viscosity(mu, body.alpha, 1, ratio, weights, mesh);
+    const std::vector<Real> mean(mu.data(), mu.data() + mesh.n_faces);
+    traction.bound_viscosity(mu, {body.alpha_f, body.normal_f, body.alpha}, body.band);
+    for (Index f = 0; f < mesh.n_internal; ++f) {
+      const Real y = mesh.Cf[f].y, whole = mean[static_cast<std::size_t>(f)];
+      if (std::abs(y - 1.1) > 0.15)
+        EXPECT_EQ(mu[f], whole) << y;
+      else
+        EXPECT_NEAR(mu[f],
+                    std::min(whole, 20 + 1 / (body.alpha_f[f] / ratio + 1 - body.alpha_f[f])),
+                    1e-12 * ratio)
+            << y;
+    }
+  }
 }
 
 // Nothing acts in series with a fluid without viscosity.

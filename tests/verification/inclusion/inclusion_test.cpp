@@ -164,6 +164,7 @@ TEST(Inclusion, ElasticUnderALastingLoad) {
 TEST(Inclusion, MuchMoreViscous) {
   expect(30, 0, 3e-3, 0.01);
   expect(100, 0, 3e-3, 0.015, {.steps = 160});
+  expect(200, 0, 3e-3, 0.015, {.steps = 160});
 }
 
 void expect_steady(Real ratio, Real u, Real strain) {
