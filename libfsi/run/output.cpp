@@ -40,7 +40,7 @@ Output::Output(const Case& setup, const Options& options, Solver& solver, const 
       lock_(io::make_directory(setup.output.directory)),
       checkpoints_(setup.output.directory, solver.mesh()),
       energy_(solver),
-      watch_(watch_of(solver)),
+      watch_(solver.bodies().size()),
       diameters_(whole_diameters(solver)),
       samples_(setup.output.sample_interval),
       field_(setup.output.field_interval),

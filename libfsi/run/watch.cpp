@@ -169,7 +169,7 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
   constexpr int few = 20;               // values
   constexpr Real often = 2, odd = 0.5;  // of the energy stored meanwhile; of what viscosity takes
   constexpr Real little = 0.1;          // of the largest energy of the run
-  if (told_of_source_ || !one_viscosity_) return;
+  if (told_of_source_) return;
   Span& s = span_;
   if (dt <= 0) return;
   steps_since_ = 0;
@@ -198,7 +198,7 @@ void Watch::source(Real taken, const EnergyBalance& energy, Real dt, Real t) {
 
 void Watch::between_rows(Solver& solver, const EnergyBalance& energy, Real dt) {
   constexpr int often = 5;
-  if (told_of_source_ || !one_viscosity_ || dt <= 0) return;
+  if (told_of_source_ || dt <= 0) return;
   if (++steps_since_ < often) return;
   source(fsi::dissipation(solver), energy, dt, solver.state().t);
 }
@@ -382,11 +382,6 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
                        "): the mesh is too coarse for it, or the solid too soft; what follows is " +
                        "not to be believed");
   }
-}
-
-Watch watch_of(const Solver& solver) {
-  const auto as_fluid = [&](const Body& body) { return body.mu == solver.physics().mu_f; };
-  return Watch(solver.bodies().size(), std::ranges::all_of(solver.bodies(), as_fluid));
 }
 
 }  // namespace fsi

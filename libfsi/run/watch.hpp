@@ -26,10 +26,8 @@ std::string tell_of_no_finish();
 /// Prints each of these once in a run, on rank 0.
 class Watch {
  public:
-  /// bodies: count of solids. one_viscosity: they have that of the fluid. With another the
-  /// dissipation in the cells of the surface is that of a mean, and too large.
-  explicit Watch(std::size_t bodies, bool one_viscosity = true)
-      : said_(bodies), one_viscosity_(one_viscosity) {}
+  /// bodies: count of solids.
+  explicit Watch(std::size_t bodies) : said_(bodies) {}
 
   /// Collective. A warning if `made`, the part of the energy that the scheme made, is suspicious.
   /// If it is most of the energy, the result is the reason why the run must end, since it is wrong.
@@ -95,14 +93,10 @@ class Watch {
   std::vector<Said> said_;  // of the bodies
   Span span_;
   int steps_since_ = 0;  // the last value of `source`
-  bool one_viscosity_, told_of_source_ = false;
-  bool told_of_energy_ = false, told_of_turbulence_ = false, told_of_steps_ = false,
-       told_of_end_ = false, told_of_dissipation_ = false, told_of_balance_ = false,
-       told_of_touch_ = false;
+  bool told_of_source_ = false, told_of_energy_ = false, told_of_turbulence_ = false,
+       told_of_steps_ = false, told_of_end_ = false, told_of_dissipation_ = false,
+       told_of_balance_ = false, told_of_touch_ = false;
   Real share_at_start_ = -1;  // the busiest rank's in the solid's cells, over the mean
 };
-
-/// The one for the solids that are in the solver.
-Watch watch_of(const Solver& solver);
 
 }  // namespace fsi
