@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/field/fraction.hpp"
 #include "libfsi/operators/least_squares.hpp"
@@ -24,11 +25,12 @@ Vec3 shear(const Vec3& v, const Vec3& m, const Vec3& S) { return dot(m, S) * v +
 }  // namespace
 
 SurfaceTraction::SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G,
-                                 Viscosities mu)
+                                 Viscosities mu, SymmetryFaces symmetry)
     : mesh_(mesh),
       weights_(weights),
       G_(G),
       mu_(mu),
+      symmetry_(std::move(symmetry)),
       mu_least_(std::max(mu.solid, mu.fluid / 4)),
       jump_force_(mesh, weights),
       touch_(mesh),
@@ -55,9 +57,14 @@ void SurfaceTraction::clear(const Band& band) {
   last_faces_ = band.faces();
 }
 
+Index SurfaceTraction::second_cell(Index f) const {
+  return f < mesh_.n_internal ? mesh_.neighbour[f] : mesh_.owner[f];
+}
+
 bool SurfaceTraction::separates(const CutFaces& cut, Index f) const {
-  if (f >= mesh_.n_internal || norm2(cut.normal[f]) == 0) return false;
-  const Real a = cut.alpha[mesh_.owner[f]], b = cut.alpha[mesh_.neighbour[f]];
+  const bool internal = f < mesh_.n_internal;
+  if ((!internal && !symmetry_.has(f, mesh_)) || norm2(cut.normal[f]) == 0) return false;
+  const Real a = cut.alpha[mesh_.owner[f]], b = cut.alpha[second_cell(f)];
   return is_cut(a) || is_cut(b) || std::abs(a - b) > 0.5;
 }
 
@@ -67,7 +74,9 @@ bool SurfaceTraction::is_own(Real mu, Real own) const {
 }
 
 Real SurfaceTraction::mean(const CutFaces& cut, Index f) const {
-  return mu_.fluid + (mu_.solid - mu_.fluid) * face_mean(cut.alpha, f, weights_, mesh_);
+  const Index P = mesh_.owner[f];
+  const Real alpha = f < mesh_.n_internal ? face_mean(cut.alpha, f, weights_, mesh_) : cut.alpha[P];
+  return mu_.fluid + (mu_.solid - mu_.fluid) * alpha;
 }
 
 Real SurfaceTraction::harmonic(Real alpha_f, Real mu) const {
@@ -76,7 +85,7 @@ Real SurfaceTraction::harmonic(Real alpha_f, Real mu) const {
 
 Real SurfaceTraction::bounded(const CutFaces& cut, Index f) const {
   const Real whole = mean(cut, f);
-  if (mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(mesh_.neighbour[f])) return whole;
+  if (mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(second_cell(f))) return whole;
   return std::min(whole, harmonic(cut.alpha_f[f], mu_least_) + explicit_ratio_max * mu_.fluid);
 }
 
@@ -94,7 +103,7 @@ bool SurfaceTraction::at_surface(const Surface& surface, Index f) const {
 void SurfaceTraction::mark(const Surface& surface, const Band& band) {
   for (const Index f : band.faces()) {
     if (!at_surface(surface, f)) continue;
-    for (const Index c : {mesh_.owner[f], mesh_.neighbour[f]})
+    for (const Index c : {mesh_.owner[f], second_cell(f)})
       if (c < mesh_.n_owned) touch_[c] = uncut(surface.alpha[c]) ? 2 : 1;
   }
   mesh_.halo.update(touch_);
@@ -108,9 +117,9 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
   SlopeFit fit;
   Vec3 k, h;
   Real q = 0;
-  for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index n, const Vec3& r, const Vec3& plane) {
     const Real depth = std::min(Real{0}, height + dot(m, r)) - std::min(Real{0}, height);
-    const Vec3 du = surface.u[n] - surface.u[c];
+    const Vec3 du = image(surface.u[n], plane) - surface.u[c];
     const Real w = fit.add(r, du);
     k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
   });
@@ -136,9 +145,9 @@ void SurfaceTraction::extend(CellField<T>& own, const Band& band) {
       if (touch_[c] == 0 || has_own_[c] > 0) continue;
       T sum;
       Real weight = 0;
-      for_vertex_neighbours(c, mesh_, [&](Index n, const Vec3& r) {
+      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index n, const Vec3& r, const Vec3& m) {
         if (has_own_[n] == 0 || has_own_[n] > ring) return;
-        sum += (1 / norm2(r)) * own[n], weight += 1 / norm2(r);
+        sum += (1 / norm2(r)) * image(own[n], m), weight += 1 / norm2(r);
       });
       if (weight > 0) own[c] = (1 / weight) * sum, has_own_[c] = ring + 1;
     }
@@ -160,12 +169,13 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
     if (touch_[c] == 0) continue;
     L_viscous_[c] = surface.L[c];
     if (in ? viscous(c) : touch_[c] > 1) {
-      L_viscous_[c] = one_sided_gradient(surface.L, surface.u, viscous, inner, nowhere, mesh_, c);
+      L_viscous_[c] =
+          one_sided_gradient(surface.L, surface.u, viscous, inner, nowhere, mesh_, c, symmetry_);
       has_own_[c] = in ? 1 : 0;
     }
     if (lends && known(c)) {
-      own_[c] =
-          twice_symmetric(one_sided_gradient(surface.L, surface.u, known, none, nowhere, mesh_, c));
+      own_[c] = twice_symmetric(
+          one_sided_gradient(surface.L, surface.u, known, none, nowhere, mesh_, c, symmetry_));
       has_own_[c] = 1;
     }
   }
@@ -176,31 +186,52 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
   if (lends) extend(own_, band);
 }
 
+template <class T>
+T SurfaceTraction::with_image(const T& of_owner, Index f) const {
+  return 0.5 * (of_owner + image(of_owner, mesh_.Sf[f] / norm(mesh_.Sf[f])));
+}
+
+template <class T>
+T SurfaceTraction::at_face(const CellField<T>& field, Index f) const {
+  return f < mesh_.n_internal ? face_mean(field, f, weights_, mesh_)
+                              : with_image(field[mesh_.owner[f]], f);
+}
+
+template <class T>
+T SurfaceTraction::of_fits(const CellField<T>& field, Index f) const {
+  const Index P = mesh_.owner[f];
+  if (f >= mesh_.n_internal) return with_image(field[P], f);
+  const Index N = mesh_.neighbour[f];
+  return (1 / (fitted_[P] + fitted_[N])) * (fitted_[P] * field[P] + fitted_[N] * field[N]);
+}
+
+SurfaceTraction::Pair SurfaceTraction::pair(Index f, const CellField<Vec3>& u) const {
+  const Index P = mesh_.owner[f];
+  if (f < mesh_.n_internal)
+    return {.du = u[mesh_.neighbour[f]] - u[P], .d = mesh_.d[f], .k = weights_.k[f]};
+  const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+  return {.du = -dot(u[P], n) * n, .d = dot(mesh_.d[f], n) * n, .k = {}};
+}
+
 SurfaceTraction::Sides SurfaceTraction::sides(Index f, const Vec3& m, Real alpha_f) const {
-  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-  const Real both = fitted_[P] + fitted_[N];
-  const Real p = fitted_[P] / both, n = fitted_[N] / both;
-  const Tensor L = p * L_[P] + n * L_[N];
+  const Tensor L = of_fits(L_, f);
   if (mu_.solid > mu_.fluid) {
-    const Tensor L_solid = face_mean(L_viscous_, f, weights_, mesh_);
+    const Tensor L_solid = at_face(L_viscous_, f);
     return {.mean = alpha_f * L_solid + (1 - alpha_f) * L, .common = L_solid, .lent = {}};
   }
-  const Tensor mean = L + outer(alpha_f * along_surface(p * kink_[P] + n * kink_[N], m), m);
-  return {.mean = mean,
-          .common = mean,
-          .lent = (mu_least_ - mu_.solid) * face_mean(own_, f, weights_, mesh_)};
+  const Tensor mean = L + outer(alpha_f * along_surface(of_fits(kink_, f), m), m);
+  return {.mean = mean, .common = mean, .lent = (mu_least_ - mu_.solid) * at_face(own_, f)};
 }
 
 SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& surface) const {
-  const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f], d = mesh_.d[f];
-  const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+  const Vec3 m = surface.normal_f[f], S = mesh_.Sf[f];
+  const auto [du, d, k] = pair(f, surface.u);
   const Real alpha_f = surface.alpha_f[f];
-  const Vec3 du = surface.u[N] - surface.u[P];
   const Sides side = sides(f, m, alpha_f);
   const SymTensor D = twice_symmetric(side.common);  // 2 D
   const Vec3 Dm = dot(D, m);
   const Vec3 e = along_surface(dot(twice_symmetric(side.mean), m), m);
-  const Vec3 Tm = dot(G_ * face_mean(surface.T, f, weights_, mesh_), m);
+  const Vec3 Tm = dot(G_ * at_face(surface.T, f), m);
   const Vec3 Gb = along_surface(Tm, m);
   // (mu_least - mu_s) 2 D . m of the own side: the surplus of mu_least
   const Vec3 lent = along_surface(dot(side.lent, m), m);
@@ -208,10 +239,10 @@ SurfaceTraction::FaceExcess SurfaceTraction::excess_at(Index f, const Surface& s
   const Real excess = std::min(mu_.solid, most) - mu_.fluid, s = excess * dot(Dm, m);
   const Real mu_h = harmonic(alpha_f, mu_least_), series = alpha_f * mu_h / mu_least_;
   // gammadot (m . S): the difference along d is that of the face, m . S = g m . d + m . k
-  const Vec3 e_mS = along_surface(weights_.g[f] * (du - dot(side.common, along_surface(d, m))) +
-                                      dot(m, weights_.k[f]) * dot(side.mean, m) +
-                                      dot(m, S) * dot(transpose(side.common), m),
-                                  m);
+  const Vec3 e_mS =
+      along_surface(weights_.g[f] * (du - dot(side.common, along_surface(d, m))) +
+                        dot(m, k) * dot(side.mean, m) + dot(m, S) * dot(transpose(side.common), m),
+                    m);
   // (mu_h - mu_f) (gammadot m + m gammadot) + alpha_f (mu_h / mu_s - 1) (tau_t m + m tau_t)
   const Vec3 traction =
       (mu_h - mu_.fluid) * e_mS +
@@ -230,20 +261,23 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_c
   const CellField<Real>& alpha = surface.alpha;
   for (const Index f : band.faces()) {
     if (!at_surface(surface, f)) continue;
-    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Index P = mesh_.owner[f], N = second_cell(f);
     if (fitted_[P] + fitted_[N] == 0) continue;
+    const bool internal = f < mesh_.n_internal;
     const FaceExcess at_face = excess_at(f, surface);
     const Real s = at_face.s;
-    const Vec3 S = mesh_.Sf[f], du = surface.u[N] - surface.u[P];
+    const Vec3 S = mesh_.Sf[f];
     // the stress of the momentum equation that it replaces: the mean viscosity
-    Vec3 along_S = weights_.g[f] * du;
-    if (const Index i = weights_.place[f]; i >= 0) along_S += dot(surface.L_f[i], weights_.k[f]);
+    Vec3 along_S = weights_.g[f] * pair(f, surface.u).du;
+    if (const Index i = weights_.place[f]; internal && i >= 0)
+      along_S += dot(surface.L_f[i], weights_.k[f]);
     const Real mean_excess = surface.mu[f] - mu_.fluid;
     const auto flux_of = [&](Index c) {
       return at_face.flux + (alpha[c] * s) * S -
              mean_excess * (along_S + dot(transpose(surface.L[c]), S));
     };
     force[P] += (1 / mesh_.V[P]) * flux_of(P);
+    if (!internal) continue;
     force[N] -= (1 / mesh_.V[N]) * flux_of(N);
     const Real jump = s * (alpha[N] - alpha[P]);
     jump_force_.add(f, jump, pressure.cells);
@@ -268,10 +302,12 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
     for (const Index f : mesh_.cell_faces[c]) {
       const Index P = mesh_.owner[f];
       const Real out = P == c ? 1 : -1;
-      if (at_surface(surface, f) && fitted_[P] + fitted_[mesh_.neighbour[f]] > 0) continue;
+      if (at_surface(surface, f) && fitted_[P] + fitted_[second_cell(f)] > 0) continue;
       Tensor L_f = more_viscous ? L_of(c) : none;
       if (more_viscous && f < mesh_.n_internal)
         L_f = (1 - weights_.lambda[f]) * L_of(P) + weights_.lambda[f] * L_of(mesh_.neighbour[f]);
+      else if (symmetry_.has(f, mesh_))
+        L_f = with_image(L_f, f);
       sum += out * dot(transpose(L_f + (more_viscous && !in ? none : in_place)), mesh_.Sf[f]);
     }
     force[c] += (excess / mesh_.V[c]) * sum;

@@ -8,6 +8,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/balanced_jump_force.hpp"
 #include "libfsi/solid/flow_snapshot.hpp"
 
@@ -69,8 +70,10 @@ struct Viscosities {
 /// elastic stress as they are: each of the two would subtract the part of both.
 class SurfaceTraction {
  public:
-  /// Collective. mesh and weights must outlive it.
-  SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G, Viscosities mu);
+  /// Collective. symmetry: planes beyond which the images of cells count as neighbours. mesh and
+  /// weights must outlive it.
+  SurfaceTraction(const Mesh& mesh, const FaceWeights& weights, Real G, Viscosities mu,
+                  SymmetryFaces symmetry = {});
 
   /// Collective. Adds to the force, and adds the rises of s_mu to c_f (`rhie_chow_source`). band:
   /// that of the elastic stress, force and c_f cleared there.
@@ -131,6 +134,24 @@ class SurfaceTraction {
   static constexpr Real explicit_ratio_max = 20;
 
   void clear(const Band& band);
+  /// The neighbour at internal face f. At a plane of symmetry the owner itself, whose image is the
+  /// neighbour.
+  Index second_cell(Index f) const;
+  /// Half the sum of the owner's value and its image beyond the plane of symmetry at face f.
+  template <class T>
+  T with_image(const T& of_owner, Index f) const;
+  /// The mean of both cells at the centre of f, with the image at a plane of symmetry.
+  template <class T>
+  T at_face(const CellField<T>& field, Index f) const;
+  /// The mean of the fitted cells at f, with the image at a plane of symmetry.
+  template <class T>
+  T of_fits(const CellField<T>& field, Index f) const;
+  /// The difference of u along the vector d, and k = S - g d. At a plane of symmetry d leads half
+  /// the way to the image, and S = g d.
+  struct Pair {
+    Vec3 du, d, k;
+  };
+  Pair pair(Index f, const CellField<Vec3>& u) const;
   /// Whether the surface lies between the centres of face f, beyond rounding of alpha, and the
   /// viscosity of f is that of this solid and the fluid alone.
   bool at_surface(const Surface& surface, Index f) const;
@@ -174,6 +195,7 @@ class SurfaceTraction {
   const FaceWeights& weights_;
   Real G_;
   Viscosities mu_;
+  SymmetryFaces symmetry_;
   Real mu_least_;                 // mu_s as it counts in mu_h
   BalancedJumpForce jump_force_;  // of the rises of s_mu
   CellField<Real> touch_;         // 1: has a face at the surface; 2: and is uncut, more viscous

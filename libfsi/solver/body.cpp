@@ -172,7 +172,8 @@ void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
     kink_profile.emplace(mesh);
   }
   if (extended() && mu != physics.mu_f && physics.mu_f > 0)
-    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f});
+    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f},
+                            SymmetryFaces{filled.cut_by.faces});
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
 }

@@ -43,8 +43,9 @@ inline constexpr Real eigenvalue_limit = 1e-4;
 /// The parts for a surface between two viscosities.
 struct TwoViscosities {
   /// Collective. mesh and weights must outlive it.
-  TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu)
-      : traction(mesh, weights, G, mu), normal(mesh), height(mesh) {}
+  TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu,
+                 const SymmetryFaces& symmetry)
+      : traction(mesh, weights, G, mu, symmetry), normal(mesh), height(mesh) {}
   solid::SurfaceTraction traction;  ///< the stress at the surface
   CellField<Vec3> normal;           ///< of the surface in a cell, out of the solid
   CellField<Real> height;           ///< of the cell's centre above the surface
