@@ -62,8 +62,9 @@ struct MomentumTerms {
 /// Convection is by Adams-Bashforth of third order, the explicit viscous part E by that of second.
 /// With C the compact viscous term,
 ///   rho V w / dt - sum_f (theta_f mu + kappa) g (w_N - w_P)
-///     = -rho AB3(conv) + C(u^n) - C((theta_f - 1/2) (dt / dt_old) (u^n - u^(n-1)))
-///       + AB2(E) + V (-grad p^(n-1/2) + f + S).
+///     = -rho AB3(conv) + C(u^n) - C((theta_f - 1/2) (reach / dt_old) (u^n - u^(n-1)))
+///       + AB2(E) + V (-grad p^(n-1/2) + f + S),
+/// with `reach` of dt, at most 2 dt_old.
 /// What moves with a body through the mesh changes by Courant numbers in a step. There AB2 is off
 /// by 5/12 Co^2 of a wave's second difference. At Co = 0.5 that is more than half of the 1/6 by
 /// which the linear face value is off. Between Courant numbers of 0.66 and 0.9 the scheme blends

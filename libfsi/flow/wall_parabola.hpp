@@ -19,8 +19,9 @@ namespace fsi::flow {
 /// with the discrete gradient of the stencil. By this omega the derivative of q at the wall is 0.
 /// On uniform quadrilaterals or hexahedra omega = 2/3. Facets of a curved wall lie inside of it,
 /// which brakes the fluid more, and the difference alone brakes it less. Both errors are of second
-/// order and of about the same size, so a curved wall has omega = 0. Triangles and tetrahedra have
-/// none, and walls with a single cell between them neither.
+/// order and of about the same size. So omega falls to 0 as the normals of neighbouring faces turn
+/// by up to 0.02 rad. Triangles and tetrahedra have none, and walls with a single cell between them
+/// neither.
 class WallParabola {
  public:
   /// The excess is explicit. In a channel two or more cells wide a step is stable for any viscosity
