@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "libfsi/flow/planes_at.hpp"
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/operators/pieces.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/run/taylor.hpp"
 #include "libfsi/solver/energy.hpp"
 
@@ -24,6 +26,17 @@ namespace {
 const Patch* find(const Mesh& mesh, const std::string& name) {
   const auto at = std::ranges::find(mesh.patches, name, &Patch::name);
   return at == mesh.patches.end() ? nullptr : &*at;
+}
+
+/// The mean over those vertex neighbours of cell c that count, identity without one.
+SymTensor mean_around(const CellField<SymTensor>& B, const std::function<bool(Index)>& counts,
+                      const Mesh& mesh, Index c) {
+  SymTensor sum;
+  Real count = 0;
+  for_vertex_neighbours(c, mesh, [&](Index n, const Vec3&) {
+    if (counts(n)) sum += B[n], ++count;
+  });
+  return count > 0 ? (1 / count) * sum : identity();
 }
 
 /// Length of a periodic channel along its axis; 0 where the mesh has no period along it.
@@ -208,15 +221,24 @@ Real surface_area(const Body& body) {
 Real shape_energy(const Body& body) {
   const solid::ReferenceMap* map = body.map();
   if (map == nullptr) return 0;
+  const Mesh& mesh = body.mesh;
+  const CellField<Real>& alpha = body.alpha;
   // A crumb that was torn off has no map of its own shape.
-  CellField<Real> crumbs(body.mesh);
-  Pieces pieces(body.mesh);
-  pieces.find(body.alpha);
-  if (pieces.several()) pieces.mark_crumbs(crumbs, body.alpha, solid::Rings::count);
-  CellField<SymTensor> B(body.mesh, identity());
-  for (Index c = 0; c < body.mesh.n_owned; ++c)
-    if (body.alpha[c] > 0 && map->is_set[c] > 0 && crumbs[c] == 0) B[c] = map->B(c, body.alpha[c]);
-  return body.law.energy(body.G, B, body.alpha, body.mesh);
+  CellField<Real> crumbs(mesh);
+  Pieces pieces(mesh);
+  pieces.find(alpha);
+  if (pieces.several()) pieces.mark_crumbs(crumbs, alpha, solid::Rings::count);
+  const auto mapped = [&](Index c) { return alpha[c] >= solid::alpha_known && map->is_set[c] > 0; };
+  CellField<SymTensor> B(mesh, identity());
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    if (mapped(c) && crumbs[c] == 0) B[c] = map->B(c, alpha[c]);
+  mesh.halo.update(B);
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    if (mapped(c) || !(alpha[c] > 0) || map->is_set[c] == 0 || crumbs[c] > 0) continue;
+    // Where the extrapolated map is wrong in volume by a factor of two and more, it says nothing.
+    B[c] = map->trust(c) > 0 ? map->B(c, alpha[c]) : mean_around(B, mapped, mesh, c);
+  }
+  return body.law.energy(body.G, B, alpha, mesh);
 }
 
 std::vector<Real> whole_diameters(const Solver& solver) {

@@ -82,7 +82,7 @@ class SurfaceTraction {
 
   /// Implicit part C_s of mu_s - mu_f at the faces of triangles and tetrahedra at the surface, if
   /// the solid is the more viscous one. Between cells with little solid the mean viscosity is
-  /// small, and the explicit stress is not. With C_s = 0 a disc of mu_s / mu_f = 12 in Stokes flow
+  /// small, and the explicit stress is not. With C_s = 0 a disc of mu_s / mu_f = 16 in Stokes flow
   /// becomes unstable there. On other cells one of 200 does not.
   static constexpr Real implicit_share = 0.25;
 
