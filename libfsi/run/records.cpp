@@ -228,13 +228,14 @@ Real shape_energy(const Body& body) {
   Pieces pieces(mesh);
   pieces.find(alpha);
   if (pieces.several()) pieces.mark_crumbs(crumbs, alpha, solid::Rings::count);
-  const auto mapped = [&](Index c) { return alpha[c] >= solid::alpha_known && map->is_set[c] > 0; };
+  const auto has_map = [&](Index c) { return map->is_set[c] > 0 && crumbs[c] == 0; };
+  const auto mapped = [&](Index c) { return alpha[c] >= solid::alpha_known && has_map(c); };
   CellField<SymTensor> B(mesh, identity());
   for (Index c = 0; c < mesh.n_owned; ++c)
-    if (mapped(c) && crumbs[c] == 0) B[c] = map->B(c, alpha[c]);
+    if (mapped(c)) B[c] = map->B(c, alpha[c]);
   mesh.halo.update(B);
   for (Index c = 0; c < mesh.n_owned; ++c) {
-    if (mapped(c) || !(alpha[c] > 0) || map->is_set[c] == 0 || crumbs[c] > 0) continue;
+    if (mapped(c) || !has_map(c) || !(alpha[c] > 0)) continue;
     // Where the extrapolated map is wrong in volume by a factor of two and more, it says nothing.
     B[c] = map->trust(c) > 0 ? map->B(c, alpha[c]) : mean_around(B, mapped, mesh, c);
   }

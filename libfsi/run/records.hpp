@@ -90,7 +90,8 @@ Real largest_drift(const std::vector<SolidRecord>& records);
 Real surface_area(const Body& body);
 
 /// Collective. Elastic energy of the strain that the map gives, of the memory or of the map
-/// kinematics; 0 without one.
+/// kinematics; 0 without one. A cell whose extrapolated map has no trust takes the mean strain of
+/// its mapped neighbours.
 Real shape_energy(const Body& body);
 
 }  // namespace fsi
