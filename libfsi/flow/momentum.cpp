@@ -50,6 +50,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
       b_(static_cast<std::size_t>(mesh.n_owned * mesh.dim)),
       system_(mesh, "u", 1e-7) {
   implicit_.assign(boundary_.open.size(), Vec3{1, 1, 1});
+  slips_ = faces_where(conditions, mesh, lets_slip);
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
@@ -66,11 +67,19 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
   set_theta(1);
 }
 
+bool Momentum::mirrored(Index f) const {
+  return f >= mesh_.n_internal && slips_[f - mesh_.n_internal] != 0;
+}
+
+Real Momentum::between_cells(Index f) const {
+  return mirrored(f) ? weights_.g[f] / 2 : weights_.g[f];
+}
+
 void Momentum::bound_explicit_viscosity(Real mu_max, Real theta_max) {
   Real spread = 0;
   for (Index c = 0; c < mesh_.n_owned; ++c) {
     Real sum = 0;
-    for (const Index f : mesh_.cell_faces[c]) sum += weights_.g[f];
+    for (const Index f : mesh_.cell_faces[c]) sum += between_cells(f);
     spread = std::max(spread, sum / mesh_.V[c]);
   }
   rate_ = std::max(rate_, mu_max / rho_ * global_max(spread));
@@ -106,12 +115,13 @@ void Momentum::raise_theta(const MomentumTerms& terms, Real theta_now, Real dt) 
   for (const Index f : raised_) theta_f_[f] = theta_of(f, theta_now);
   raised_.clear();
   for (const Index f : terms.one_sided) {
-    if (f >= mesh_.n_internal) continue;
-    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const bool internal = f < mesh_.n_internal;
+    if (!internal && !mirrored(f)) continue;
+    const Index P = mesh_.owner[f], N = internal ? mesh_.neighbour[f] : P;
     const Real rho =
         terms.rho ? std::min(least((*terms.rho)[P], mesh_.dim), least((*terms.rho)[N], mesh_.dim))
                   : rho_;
-    const Real l = dt * terms.mu[f] * weights_.g[f] * (1 / mesh_.V[P] + 1 / mesh_.V[N]) / rho;
+    const Real l = dt * terms.mu[f] * between_cells(f) * (1 / mesh_.V[P] + 1 / mesh_.V[N]) / rho;
     if (margin * l <= 1) continue;
     theta_f_[f] = theta_of(f, theta_now) + margin - 1 / l;
     raised_.push_back(f);

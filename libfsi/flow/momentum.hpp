@@ -138,6 +138,10 @@ class Momentum {
   void set_theta(Real theta_now);
   /// The least of an irregular face.
   Real theta_of(Index f, Real theta_now) const;
+  /// Whether f lies on a plane of symmetry.
+  bool mirrored(Index f) const;
+  /// g of face f; on a plane of symmetry that between the cell and its image, half as large.
+  Real between_cells(Index f) const;
   /// Takes back what it raised the last time.
   void raise_theta(const MomentumTerms& terms, Real theta_now, Real dt);
   void add_convection(const CellField<Vec3>& u, const MomentumTerms& terms, Real dt);
@@ -164,6 +168,7 @@ class Momentum {
   ViscousBoundary boundary_;
   // [n_boundary] share of the viscous flux in each component's diagonal
   std::vector<Vec3> implicit_;
+  std::vector<char> slips_;     // [n_boundary] 1 on planes of symmetry
   std::vector<Index> coupled_;  // slip faces of oblique normals, in the order of the couplings
   History history_;
   FaceField<Real> theta_f_;

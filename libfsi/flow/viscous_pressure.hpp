@@ -12,8 +12,10 @@ namespace fsi::flow {
 /// implicit viscous term on the correction grad q. chi = 1/2, less in cells of poor shape.
 class ViscousPressure {
  public:
-  /// mesh: must outlive it.
-  ViscousPressure(const Mesh& mesh, const FaceWeights& weights);
+  /// mesh: must outlive it. mirrors: [n_boundary] 1 on planes of symmetry, where a cell has an
+  /// image; empty: there are none.
+  ViscousPressure(const Mesh& mesh, const FaceWeights& weights,
+                  const std::vector<char>& mirrors = {});
 
   /// Collective. div: of the predicted flux, owned. p: owned and halo.
   void add(CellField<Real>& p, const CellField<Real>& div, const FaceField<Real>& mu,

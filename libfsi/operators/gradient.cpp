@@ -77,7 +77,8 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
       owner(static_cast<std::size_t>(mesh.n_faces)),
       neighbour(static_cast<std::size_t>(mesh.n_internal)),
       given(static_cast<std::size_t>(mesh.n_boundary()), 0),
-      mirror(given) {
+      mirror(given),
+      image(given.size()) {
   // M as above; fallback = I - sum over faces without a value of g0 (x) tangential part of d: the
   // gradient along the normal is taken as zero there.
   std::vector<Tensor> M(static_cast<std::size_t>(mesh.n_cells)), fallback(M.size());
@@ -95,9 +96,11 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
                  foot = dot(mesh.d[f], n) * n;
       given[f - mesh.n_internal] = has_value[i] ? 1 : 0;
       mirror[f - mesh.n_internal] = !mirrors.empty() && mirrors[i] ? 1 : 0;
-      if (has_value[i]) {
-        owner[f] = g0;
-        M[P] += outer(g0, mirror[f - mesh.n_internal] != 0 ? foot : mesh.d[f]);
+      const bool mirrored = mirror[f - mesh.n_internal] != 0;
+      if (has_value[i]) owner[f] = g0;
+      if (mirrored) image[f - mesh.n_internal] = 0.5 * g0;
+      if (has_value[i] || mirrored) {
+        M[P] += outer(g0, mirrored ? foot : mesh.d[f]);
       } else {
         fallback[P] += outer(g0, mesh.d[f] - foot);
       }
@@ -117,6 +120,8 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
   }
   for (Index f = 0; f < mesh.n_faces; ++f) {
     if (mesh.owner[f] < mesh.n_owned) owner[f] = dot(M[mesh.owner[f]], owner[f]);
+    if (f >= mesh.n_internal)
+      image[f - mesh.n_internal] = dot(M[mesh.owner[f]], image[f - mesh.n_internal]);
     if (f < mesh.n_internal && mesh.neighbour[f] < mesh.n_owned)
       neighbour[f] = dot(M[mesh.neighbour[f]], neighbour[f]);
   }

@@ -29,7 +29,8 @@ struct GradientStencil {
   std::vector<Vec3> neighbour;  ///< [n_internal] g_Nf
   std::vector<char> given;      ///< [n_boundary] 1 on patches with a value
   std::vector<char> mirror;     ///< [n_boundary] 1 on planes of symmetry
-  std::vector<Index> unfit;     ///< owned cells with too few neighbours for a linear fit
+  std::vector<Vec3> image;   ///< [n_boundary] weight of the rise to the cell's image there, else 0
+  std::vector<Index> unfit;  ///< owned cells with too few neighbours for a linear fit
   /// Owned cells that are not triangles or tetrahedra and have faces without a value. For each of
   /// them the inverse of I - (1/V) sum S (x) e over these faces, e from `to_boundary`. Where that
   /// is singular, faces with another one across the cell are left out, and I is taken where that

@@ -36,7 +36,7 @@ SymTensor raised_inverse(SymTensor M, int dim) {
 SymTensor inverse_moments(const Mesh& mesh, Index c, const SymmetryFaces& symmetry) {
   constexpr Real flat = 1e-6;
   SymTensor M;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index, const Vec3& r, const Vec3& /*n*/) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index, const Vec3& r, const Reflection& /*n*/) {
     M += (1 / norm2(r)) * square(r);
   });
   const bool told = tells(M, mesh.dim, flat);
@@ -47,16 +47,17 @@ SymTensor inverse_moments(const Mesh& mesh, Index c, const SymmetryFaces& symmet
 Vec3 slope_at(const CellField<Real>& q, const SymTensor& inverse, const Mesh& mesh, Index c,
               const SymmetryFaces& symmetry) {
   Vec3 sum;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& /*n*/) {
-    sum += ((q[k] - q[c]) / norm2(r)) * r;
-  });
+  for_neighbours_and_images(c, symmetry, mesh,
+                            [&](Index k, const Vec3& r, const Reflection& /*n*/) {
+                              sum += ((q[k] - q[c]) / norm2(r)) * r;
+                            });
   return dot(inverse, sum);
 }
 
 Tensor slope_at(const CellField<Vec3>& u, const SymTensor& inverse, const Mesh& mesh, Index c,
                 const SymmetryFaces& symmetry) {
   Tensor sum;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Reflection& n) {
     sum += outer(image(u[k], n) - u[c], r / norm2(r));
   });
   return dot(sum, inverse);

@@ -3,19 +3,20 @@
 #include <algorithm>
 
 #include "libfsi/operators/stencil.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi {
-
 template <class Gradient>
 VertexMean<Gradient>::VertexMean(const Mesh& mesh, const GradientStencil& stencil)
     : mesh_(mesh), weights_(stencil.weights), weight_(mesh) {
-  number_vertices();
-  list_cells();
+  const std::vector<Index> row = number_vertices();
+  list_cells(row);
   set_weights(stencil);
+  list_planes(stencil, row);
 }
 
 template <class Gradient>
-void VertexMean<Gradient>::number_vertices() {
+std::vector<Index> VertexMean<Gradient>::number_vertices() {
   std::vector<Index> row(mesh_.points.size(), -1);
   Index n = 0;
   for (const Index f : weights_.irregular) {
@@ -31,17 +32,12 @@ void VertexMean<Gradient>::number_vertices() {
   }
   mean_.resize(static_cast<std::size_t>(n));
   stamp_.assign(mean_.size(), 0);
+  return row;
 }
 
 template <class Gradient>
-void VertexMean<Gradient>::list_cells() {
+void VertexMean<Gradient>::list_cells(const std::vector<Index>& row) {
   if (mean_.empty()) return;
-  std::vector<Index> row(mesh_.points.size(), -1);  // by vertex
-  for (std::size_t i = 0; i < weights_.irregular.size(); ++i) {
-    const auto points = mesh_.face_points[weights_.irregular[i]];
-    const auto rows = face_rows_[static_cast<Index>(i)];
-    for (std::size_t j = 0; j < rows.size(); ++j) row[mesh_.vertex[points[j]]] = rows[j];
-  }
   const auto each = [&](auto&& visit) {
     for (Index c = 0; c < mesh_.n_cells; ++c)
       for (const Index p : mesh_.cell_points[c])
@@ -62,7 +58,9 @@ void VertexMean<Gradient>::list_cells() {
 template <class Gradient>
 void VertexMean<Gradient>::set_weights(const GradientStencil& stencil) {
   for (Index f = 0; f < mesh_.n_faces; ++f) {
-    weight_[mesh_.owner[f]] += norm2(stencil.owner[f]);
+    const bool mirror = f >= mesh_.n_internal && stencil.mirror[f - mesh_.n_internal] != 0;
+    weight_[mesh_.owner[f]] +=
+        norm2(mirror ? stencil.image[f - mesh_.n_internal] : stencil.owner[f]);
     if (f < mesh_.n_internal) weight_[mesh_.neighbour[f]] += norm2(stencil.neighbour[f]);
   }
   for (Real& w : weight_.owned()) w = w > 0 ? 1 / w : 0;
@@ -77,10 +75,27 @@ void VertexMean<Gradient>::set_weights(const GradientStencil& stencil) {
 }
 
 template <class Gradient>
+void VertexMean<Gradient>::list_planes(const GradientStencil& stencil,
+                                       const std::vector<Index>& row) {
+  planes_.assign(mean_.size(), -1);
+  for (const auto& [vertex, planes] : planes_through_vertices(stencil.mirror, mesh_)) {
+    const Index r = row[vertex];
+    if (r < 0 || !at_right_angles(planes)) continue;
+    planes_[r] = static_cast<Index>(reflections_.size());
+    Reflection& reflection = reflections_.emplace_back();
+    for (const geometry::Mirror& plane : planes) reflection.normals[reflection.count++] = plane.n;
+  }
+}
+
+template <class Gradient>
 void VertexMean<Gradient>::set_row(Index r, const CellField<Gradient>& of_cells) {
   Gradient sum;
   for (const Index c : row_cells_[r]) sum += weight_[c] * of_cells[c];
   mean_[r] = share_[r] * sum;
+  if (planes_[r] < 0) return;
+  const Reflection& planes = reflections_[planes_[r]];
+  for (int i = 0; i < planes.count; ++i)
+    mean_[r] = 0.5 * (mean_[r] + image(mean_[r], planes.normals[i]));
 }
 
 template <class Gradient>

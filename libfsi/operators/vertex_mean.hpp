@@ -8,6 +8,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/gradient.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi {
 
@@ -20,7 +21,8 @@ namespace fsi {
 /// with g_cf the weights of the cell's gradient. So w_c is the inverse of the variance that
 /// uncorrelated errors of q cause. A flat cell has little weight, and so has a cell with few
 /// neighbours at a boundary without values. A cell with too few neighbours for a fit counts only if
-/// there is no other. The mean is exact for linear fields.
+/// there is no other. The mean is exact for linear fields. Images of the cells complete the mean
+/// at a vertex on planes of symmetry that are at right angles to each other.
 ///
 /// The gradient of a hexahedron does not respond to a field that alternates from cell to cell. That
 /// of a tetrahedron, from four neighbours, does so strongly, and second-order convection with it
@@ -38,9 +40,11 @@ class VertexMean {
   void set(std::vector<Gradient>& g, const CellField<Gradient>& of_cells, const Band& band);
 
  private:
-  void number_vertices();
-  void list_cells();
+  /// Numbers the vertices of irregular faces. Returns their numbers by vertex, -1 of others.
+  std::vector<Index> number_vertices();
+  void list_cells(const std::vector<Index>& row);
   void set_weights(const GradientStencil& stencil);
+  void list_planes(const GradientStencil& stencil, const std::vector<Index>& row);
   void set_row(Index r, const CellField<Gradient>& of_cells);
   Gradient at_face(Index i, const CellField<Gradient>& of_cells) const;
 
@@ -49,10 +53,12 @@ class VertexMean {
   CellField<Real> weight_;  // w
   Csr face_rows_;           // [irregular faces] its vertices, numbered from 0; none between bricks
   // by row:
-  Csr row_cells_;            // in the order of their global id: the same sum on every rank
-  std::vector<Real> share_;  // 1 / sum w
+  Csr row_cells_;              // in the order of their global id: the same sum on every rank
+  std::vector<Real> share_;    // 1 / sum w
+  std::vector<Index> planes_;  // its place in reflections_; -1: on no plane of symmetry
   std::vector<Gradient> mean_;
   std::vector<std::int32_t> stamp_;
+  std::vector<Reflection> reflections_;  // the planes of symmetry through a vertex
   std::int32_t calls_ = 0;
 };
 

@@ -30,7 +30,7 @@ Value alternation(const CellField<Value>& T, const Known& known, const Rise& ris
                   const SymmetryFaces& symmetry, Index c) {
   Value sum{};
   Real weights = 0;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Reflection& n) {
     if (!known(k)) return;
     const Real w = 1 / norm2(r);
     const Value rise_k = image(rise(k, image(r, n)), n);

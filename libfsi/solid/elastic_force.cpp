@@ -52,7 +52,7 @@ void ElasticForce::add_cell_averaged(CellField<Vec3>& force, FaceField<Real>& rh
     if (f >= mesh_.n_internal) {
       if (has(solid.open, mesh_, f)) continue;
       // tau_b = tau_P + grad tau . d
-      const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], d);
+      const SymTensor aT_b = alpha[P] * T[P] + along(grad[P], to_face(solid, mesh_, f));
       force[P] += (1 / mesh_.V[P]) * traction(G_ * dev(aT_b), solid, mesh_, f);
       continue;
     }
@@ -117,12 +117,11 @@ void ElasticForce::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_sour
   for (const Index c : last_cells_) grad[c] = {};
   last_cells_ = band.cells();
   const bool sharp = solid.alpha_f != nullptr;
+  const SymmetryFaces none, &symmetry = solid.mirror != nullptr ? *solid.mirror : none;
   if (sharp)
-    gradient(grad, solid.T, pressure.cells, mesh_, band.core());
+    gradient(grad, solid.T, pressure.cells, symmetry, mesh_, band.core());
   else
-    gradient(grad, solid.alpha, solid.T, pressure.cells, mesh_, band.cells());
-  if (sharp && solid.mirror != nullptr)
-    set_slopes_at_planes(grad, solid.T, *solid.mirror, mesh_, band.core());
+    gradient(grad, solid.alpha, solid.T, pressure.cells, symmetry, mesh_, band.cells());
   mesh_.halo.update(grad, band.listed());
   if (sharp)
     add_cut_face(force, rhie_chow_source, solid, weights, pressure, band, grad);

@@ -40,9 +40,8 @@ class ElasticForce {
   ///
   /// At boundaries T continues linearly from inside, or alpha T without alpha_f. An opening has no
   /// elastic stress: a stress continued there would work on the solid that is still inside. A wall
-  /// with a film and a plane of symmetry bear its normal part only. At a
-  /// plane of symmetry the image of a triangle or tetrahedron counts as its neighbour
-  /// (`set_slopes_at_planes`).
+  /// with a film and a plane of symmetry bear its normal part only. At a plane of symmetry the
+  /// image of a cell counts as its neighbour.
   ///
   /// The counterpart c_f is (s_N - s_P) - (grad s)_f . d of s = nu . tau . nu, nu = d / |d|. With
   /// alpha_f it is that of the cells' alpha times T, and that of the jump of the pressure

@@ -51,7 +51,7 @@ void Extension::mark(const CellField<Real>& alpha, const Band& known) {
 
 SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) const {
   TensorFit fit;
-  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Reflection& n) {
     if (rings_.within(0, k)) fit.add(image(T[k], n) - T[c], r);
   });
   return fit.slope(mesh_.dim);
@@ -60,9 +60,10 @@ SymGradient Extension::least_squares(const CellField<SymTensor>& T, Index c) con
 SymGradient Extension::limited_slope(const CellField<SymGradient>& slope, Index c) const {
   SymGradient mean;
   int n = 0;
-  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3&, const Vec3& plane) {
-    if (zone_[k] >= surrounded_zone) mean += image(slope[k], plane), ++n;
-  });
+  for_neighbours_and_images(c, symmetry_, mesh_,
+                            [&](Index k, const Vec3&, const Reflection& plane) {
+                              if (zone_[k] >= surrounded_zone) mean += image(slope[k], plane), ++n;
+                            });
   const SymGradient& g = slope[c];
   const Real square = product(g, g);
   if (n == 0 || !(square > 0)) return {};
@@ -86,14 +87,15 @@ void Extension::linear(CellField<SymTensor>& T, CellField<SymGradient>& slope) {
       SymTensor sum;
       SymGradient slopes;
       Real weights = 0;
-      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-        if (!rings_.within(i - 1, k)) return;
-        const Real w = 1 / norm2(r);
-        const SymGradient of_k = image(slope[k], n);
-        sum += w * (image(T[k], n) - along(of_k, r));
-        slopes += w * of_k;
-        weights += w;
-      });
+      for_neighbours_and_images(c, symmetry_, mesh_,
+                                [&](Index k, const Vec3& r, const Reflection& n) {
+                                  if (!rings_.within(i - 1, k)) return;
+                                  const Real w = 1 / norm2(r);
+                                  const SymGradient of_k = image(slope[k], n);
+                                  sum += w * (image(T[k], n) - along(of_k, r));
+                                  slopes += w * of_k;
+                                  weights += w;
+                                });
       T[c] = (1 / weights) * sum;
       slope[c] = (1 / weights) * slopes;
     }
@@ -135,11 +137,12 @@ void Extension::constant(CellField<SymTensor>& T, const CellField<Real>& where) 
       if (where[c] == 0) continue;
       SymTensor sum;
       Real weights = 0;
-      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
-        if (!rings_.within(i - 1, k) || where[k] == 0) return;
-        sum += (1 / norm2(r)) * image(T[k], n);
-        weights += 1 / norm2(r);
-      });
+      for_neighbours_and_images(c, symmetry_, mesh_,
+                                [&](Index k, const Vec3& r, const Reflection& n) {
+                                  if (!rings_.within(i - 1, k) || where[k] == 0) return;
+                                  sum += (1 / norm2(r)) * image(T[k], n);
+                                  weights += 1 / norm2(r);
+                                });
       if (weights > 0) T[c] = (1 / weights) * sum;
     }
     mesh_.halo.update(T, rings_.number());

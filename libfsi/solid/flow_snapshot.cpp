@@ -1,6 +1,6 @@
 #include "libfsi/solid/flow_snapshot.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include "libfsi/operators/stencil.hpp"
 
@@ -22,45 +22,61 @@ void gradient_of(CellField<SymGradient>& grad, const Value& value, const Gradien
   }
 }
 
-/// The slope of T in a cell at a plane of symmetry, by least squares over its face neighbours and
-/// its own image.
-SymGradient slope_at_plane(const CellField<SymTensor>& T, const SymmetryFaces& symmetry,
-                           const Mesh& mesh, Index c) {
-  TensorFit fit;
-  for (const Index f : mesh.cell_faces[c]) {
-    const Index k = beyond(mesh, f, c);
-    if (k >= 0) fit.add(T[k] - T[c], mesh.owner[f] == c ? mesh.d[f] : -mesh.d[f]);
-    if (!symmetry.has(f, mesh)) continue;
-    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
-    fit.add(image(T[c], n) - T[c], (2 * dot(mesh.d[f], n)) * n);
+/// M^-1 . R on the side of the derivatives.
+SymGradient solved(const Tensor& M, const SymGradient& R) {
+  const Tensor K = inverse(M);
+  return {along(R, {K.xx, K.xy, K.xz}), along(R, {K.yx, K.yy, K.yz}), along(R, {K.zx, K.zy, K.zz})};
+}
+
+/// Sets grad anew in cells at planes of symmetry: the quasi-Green gradient (GradientStencil) with
+/// the image beyond the plane as a neighbour. A cell with too few neighbours keeps its grad.
+template <class Value>
+void set_gradient_at_planes(CellField<SymGradient>& grad, const Value& value,
+                            const FaceWeights& weights, const SymmetryFaces& symmetry,
+                            const Mesh& mesh, std::span<const Index> cells) {
+  if (symmetry.empty()) return;
+  constexpr Real no_inverse = 0.05;  // of the determinant of M, 1 on a good cell
+  for (const Index c : cells) {
+    Tensor M;
+    SymGradient R;
+    bool at_plane = false;
+    const auto add = [&](const SymTensor& rise, const Vec3& g0, const Vec3& d) {
+      M += outer(g0, d);
+      R += outer(rise, g0);
+    };
+    for (const Index f : mesh.cell_faces[c]) {
+      const Index k = beyond(mesh, f, c);
+      const bool owner = mesh.owner[f] == c;
+      const Vec3 S = (outward(mesh, f, c) / mesh.V[c]) * mesh.Sf[f];
+      if (k >= 0) {
+        const Real part = owner ? weights.lambda[f] : 1 - weights.lambda[f];
+        add(value(k) - value(c), part * S, owner ? mesh.d[f] : -mesh.d[f]);
+      } else if (symmetry.has(f, mesh)) {
+        add(image(value(c), S / norm(S)) - value(c), 0.5 * S, to_image(mesh, f));
+        at_plane = true;
+      }
+    }
+    if (mesh.dim == 2) M.zz = 1;
+    if (at_plane && std::abs(det(M)) >= no_inverse) grad[c] = solved(M, R);
   }
-  return fit.slope(mesh.dim);
 }
 
 }  // namespace
 
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells) {
-  gradient_of(
-      grad, [&](Index c) { return T[c]; }, stencil, mesh, cells);
+              const GradientStencil& stencil, const SymmetryFaces& symmetry, const Mesh& mesh,
+              std::span<const Index> cells) {
+  const auto value = [&](Index c) { return T[c]; };
+  gradient_of(grad, value, stencil, mesh, cells);
+  set_gradient_at_planes(grad, value, stencil.weights, symmetry, mesh, cells);
 }
 
 void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
-              const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
-              std::span<const Index> cells) {
-  gradient_of(
-      grad, [&](Index c) { return alpha[c] * T[c]; }, stencil, mesh, cells);
-}
-
-void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-                          const SymmetryFaces& symmetry, const Mesh& mesh,
-                          std::span<const Index> cells) {
-  if (symmetry.is.empty()) return;
-  for (const Index c : cells) {
-    const auto at_plane = [&](Index f) { return symmetry.has(f, mesh); };
-    if (mesh.simplex(c) && std::ranges::any_of(mesh.cell_faces[c], at_plane))
-      grad[c] = slope_at_plane(T, symmetry, mesh, c);
-  }
+              const CellField<SymTensor>& T, const GradientStencil& stencil,
+              const SymmetryFaces& symmetry, const Mesh& mesh, std::span<const Index> cells) {
+  const auto value = [&](Index c) { return alpha[c] * T[c]; };
+  gradient_of(grad, value, stencil, mesh, cells);
+  set_gradient_at_planes(grad, value, stencil.weights, symmetry, mesh, cells);
 }
 
 }  // namespace fsi::solid

@@ -30,7 +30,6 @@ inline SymTensor along(const SymGradient& g, const Vec3& d) {
 
 /// Image of the gradient of a tensor field in a plane with unit normal n.
 inline SymGradient image(const SymGradient& g, const Vec3& n) {
-  if (n == Vec3{}) return g;  // a neighbour, as most are
   SymGradient of{image(g.x, n), image(g.y, n), image(g.z, n)};
   return of += outer(-2 * along(of, n), n);
 }
@@ -58,20 +57,15 @@ struct TensorFit {
 };
 
 /// Gradient of T on the listed owned cells. stencil: without given boundary values, so that the
-/// gradient of a linear field is exact at boundaries too.
+/// gradient of a linear field is exact at boundaries too. symmetry: planes beyond which the images
+/// of the cells count as neighbours.
 void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-              const GradientStencil& stencil, const Mesh& mesh, std::span<const Index> cells);
+              const GradientStencil& stencil, const SymmetryFaces& symmetry, const Mesh& mesh,
+              std::span<const Index> cells);
 /// The same of alpha T.
 void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
-              const CellField<SymTensor>& T, const GradientStencil& stencil, const Mesh& mesh,
-              std::span<const Index> cells);
-
-/// Sets grad T anew in the listed triangles and tetrahedra at planes of symmetry: by least squares
-/// over the face neighbours and the cell's own image. Without the image, the value extrapolated to
-/// the plane would depend on the cell's own T several times as strongly.
-void set_slopes_at_planes(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
-                          const SymmetryFaces& symmetry, const Mesh& mesh,
-                          std::span<const Index> cells);
+              const CellField<SymTensor>& T, const GradientStencil& stencil,
+              const SymmetryFaces& symmetry, const Mesh& mesh, std::span<const Index> cells);
 
 /// The boundary faces that the solid touches.
 struct Contact {

@@ -35,7 +35,7 @@ std::optional<Tensor> fit(const CellField<Tensor>& L, const Velocity& u, const O
   QuadraticFit quadratic(mesh.dim, cell_size(mesh, c));
   const Vec3 u_c = u[c];
   const SymmetryFaces& symmetry = walls.sides.symmetry;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Reflection& n) {
     if (!same(k)) return;
     quadratic.add_value(r, image(u[k], n) - u_c);
     if (has_L(k)) quadratic.add_gradient(r, image(L[k], n));
@@ -88,13 +88,14 @@ void InterfaceGradient::set_kinks(const CellField<Tensor>& L, const Cuts& cuts,
     if (norm2(n) == 0 || !zone_.near(c)) continue;
     Tensor in, out;
     Real w_in = 0, w_out = 0;
-    for (const Index k : mesh_.cell_neighbours[c]) {
-      const Real alpha = cuts.alpha[k];
-      if (alpha >= alpha_known)
-        in += alpha * L[k], w_in += alpha;
-      else
-        out += (1 - alpha) * L[k], w_out += 1 - alpha;
-    }
+    for_neighbours_and_images(c, sides_.symmetry, mesh_,
+                              [&](Index k, const Vec3& /*r*/, const Reflection& plane) {
+                                const Real alpha = cuts.alpha[k];
+                                if (alpha >= alpha_known)
+                                  in += alpha * image(L[k], plane), w_in += alpha;
+                                else
+                                  out += (1 - alpha) * image(L[k], plane), w_out += 1 - alpha;
+                              });
     if (!(w_in > 0 && w_out > 0)) continue;
     const Vec3 jump = dot((1 / w_out) * out + (-1 / w_in) * in, n);
     const Vec3 along = jump - dot(jump, n) * n;

@@ -17,10 +17,11 @@ inline Vec3 inward_normal(const CellField<Real>& alpha, const Mesh& mesh, Index 
                           const SymmetryFaces& symmetry = {}) {
   Vec3 n;
   Real size = 0;
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& d, const Vec3& /*n*/) {
-    n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
-    size += std::abs(alpha[k] - alpha[c]) / norm(d);
-  });
+  for_neighbours_and_images(c, symmetry, mesh,
+                            [&](Index k, const Vec3& d, const Reflection& /*n*/) {
+                              n += ((alpha[k] - alpha[c]) / norm2(d)) * d;
+                              size += std::abs(alpha[k] - alpha[c]) / norm(d);
+                            });
   constexpr Real alike = 1e-6;
   return norm(n) > alike * size ? n / norm(n) : Vec3{};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "libfsi/core/eigen.hpp"
 
@@ -22,7 +23,8 @@ SymTensor stretch(const Tensor& L, const SymTensor& B) {
 
 }  // namespace
 
-LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh) : Bt(mesh), mesh_(mesh), band_(mesh) {}
+LeftCauchyGreen::LeftCauchyGreen(const Mesh& mesh, SymmetryFaces symmetry)
+    : Bt(mesh), mesh_(mesh), band_(mesh), symmetry_(std::move(symmetry)) {}
 
 void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
   for (Index c = 0; c < mesh_.n_cells; ++c)
@@ -31,7 +33,7 @@ void LeftCauchyGreen::set_undeformed(const CellField<Real>& alpha) {
 }
 
 void LeftCauchyGreen::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
-  gradient(grad, Bt, snapshot.stencil, mesh_, band_.cells());
+  gradient(grad, Bt, snapshot.stencil, symmetry_, mesh_, band_.cells());
   mesh_.halo.update(grad);
   rate_.clear();
   for (const Index c : band_.core()) {

@@ -15,8 +15,8 @@ namespace fsi::solid {
 /// of second order in space. Works on the cells with alpha >= alpha_min.
 class LeftCauchyGreen {
  public:
-  /// mesh must outlive it.
-  explicit LeftCauchyGreen(const Mesh& mesh);
+  /// mesh must outlive it. symmetry: planes beyond which the images of cells count as neighbours.
+  explicit LeftCauchyGreen(const Mesh& mesh, SymmetryFaces symmetry = {});
 
   /// Below this fraction of solid Bt is zero, and so is the stress [Matsumiya25] 2.3.
   static constexpr Real alpha_min = 0.1;
@@ -60,6 +60,7 @@ class LeftCauchyGreen {
 
   const Mesh& mesh_;
   Band band_;
+  SymmetryFaces symmetry_;
   std::vector<SymTensor> old_, rate_;  // in the order of the core of the band
 };
 

@@ -92,8 +92,7 @@ void LogConformation::set_L(const CellField<Real>& alpha, const FlowSnapshot& sn
 Real LogConformation::rate(const FlowSnapshot& snapshot, CellField<SymGradient>& grad) {
   const std::vector<Index>& cells = known_.core();
   const FaceWeights& weights = snapshot.weights;
-  gradient(grad, psi, snapshot.stencil, mesh_, extension_.inside());
-  set_slopes_at_planes(grad, psi, extension_.symmetry(), mesh_, extension_.inside());
+  gradient(grad, psi, snapshot.stencil, extension_.symmetry(), mesh_, extension_.inside());
   for (const Index c : extension_.last_ring()) grad[c] = {};
   mesh_.halo.update(grad, extension_.near());
   Real fastest = 0;

@@ -8,7 +8,7 @@ namespace fsi::solid {
 Tensor MapExtension::regression(Index c, int up_to_ring) const {
   SymTensor M;
   Tensor R;
-  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Reflection& n) {
     if (!rings_.within(up_to_ring, k)) return;
     const Real w = 1 / norm2(r);
     M += w * square(r);
@@ -30,7 +30,7 @@ MapExtension::Item MapExtension::fit(Index c, int ring) const {
   Vec3 m, e;
   SymTensor M;
   Tensor R;
-  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index k, const Vec3& r, const Reflection& n) {
     if (!rings_.within(ring - 1, k)) return;
     const Real w = 1 / norm2(r);
     const Vec3 d = image(item_[k].d, n);

@@ -19,7 +19,7 @@ Tensor one_sided_gradient(const CellField<Tensor>& L, const Velocity& u, const K
                           const Inner& inner, const BoundaryVelocity& u_at, const Mesh& mesh,
                           Index c, const SymmetryFaces& symmetry = {}) {
   SlopeFit fit(L[c]);
-  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& d, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& d, const Reflection& n) {
     if (!known(k)) return;
     const Vec3 du = image(u[k], n) - u[c];
     inner(k) ? fit.add_pair(d, du, image(L[k], n)) : fit.add(d, du);

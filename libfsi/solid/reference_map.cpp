@@ -47,7 +47,8 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       filled_(mesh),
       slope_(mesh) {
   const FaceWeights weights(mesh);
-  GradientStencil stencil(mesh, weights, patches_of(symmetry, mesh));
+  const std::vector<bool> mirrors = patches_of(symmetry, mesh);
+  GradientStencil stencil(mesh, weights, mirrors, mirrors);
   of_owner_ = std::move(stencil.owner);
   of_neighbour_ = std::move(stencil.neighbour);
   for (const Patch& patch : walls)
@@ -94,7 +95,7 @@ Real ReferenceMap::trust(Index c) const {
 
 Tensor ReferenceMap::gradient(Index c) const {
   const SymmetryFaces& symmetry = extension_.symmetry();
-  Tensor sum, aside;
+  Tensor sum;
   if (static_cast<int>(mesh_.cell_faces[c].size()) <= mesh_.dim + 1)
     return extension_.regression(c);
   for (const Index f : mesh_.cell_faces[c]) {
@@ -104,18 +105,14 @@ Tensor ReferenceMap::gradient(Index c) const {
       sum += outer(d[n] - d[c], g);
     } else if (symmetry.has(f, mesh_)) {
       // xihat - (xihat . n) n is the value at the foot of the centre on the plane, half way to the
-      // image. The weights are those of the face's centre, which lies off the foot by t. So
-      // sum = grad xihat . (I - t (x) g).
+      // image.
       const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
       sum += outer(-dot(d[c], normal) * normal, g);
-      aside += outer(mesh_.d[f] - dot(mesh_.d[f], normal) * normal, g);
     } else {
       return extension_.regression(c);
     }
   }
-  if (aside == Tensor{}) return sum;
-  const Tensor whole{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  return dot(sum, inverse(whole + -1.0 * aside));
+  return sum;
 }
 
 void ReferenceMap::extend() {
@@ -238,7 +235,7 @@ Vec3 ReferenceMap::towards_inside(Index c, const FlowSnapshot& snapshot, Real dt
   Vec3 sum;
   Real W = 0;
   const SymmetryFaces& symmetry = extension_.symmetry();
-  for_neighbours_and_images(c, symmetry, mesh_, [&](Index k, const Vec3& r, const Vec3& n) {
+  for_neighbours_and_images(c, symmetry, mesh_, [&](Index k, const Vec3& r, const Reflection& n) {
     if ((*snapshot.inside)[k] < alpha_known) return;
     const Real w = 1 / norm2(r);
     W += w, sum += w * (image(d[k], n) - dot(image(slope_[k], n), r));

@@ -7,6 +7,7 @@
 #include "libfsi/field/band.hpp"
 #include "libfsi/field/field.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/solid/simplex_zone.hpp"
 
 namespace fsi::solid {
@@ -92,10 +93,14 @@ struct ElasticTerms {
 /// to 0. Its product with u_N - u_P less the spin of avg L times d is negative. Such fluxes occur
 /// since a one-sided L is no mean of the gradients at the faces. There with the map kinematics e is
 /// twice the root instead, and kappa grows by e, in steps of any length.
+///
+/// At a plane of symmetry the neighbour is the image of the cell, so that half of a solid has the
+/// terms of the whole.
 class SemiImplicitElasticity {
  public:
-  /// Collective. mesh and zone must outlive it.
-  SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights, const SimplexZone& zone);
+  /// Collective. mesh and zone must outlive it. symmetry: faces beyond which a cell has an image.
+  SemiImplicitElasticity(const Mesh& mesh, const FaceWeights& weights, const SimplexZone& zone,
+                         SymmetryFaces symmetry);
 
   /// kappa / (dt G alpha lambda_B), where e needs no more.
   static constexpr Real implicit_fraction = 0.4;
@@ -110,17 +115,30 @@ class SemiImplicitElasticity {
              const ElasticTerms& solid, const FaceWeights& weights, const Band& band);
 
  private:
-  /// The flux of the explicit term through face f, l = alpha_f lambda_B. Raises k, kappa of the
+  /// The line through face f between two cells, or between a cell and its image in a plane of
+  /// symmetry.
+  struct Line {
+    Index f;
+    Vec3 d;        ///< from the centre of the owner P to that of the neighbour N, or to the image
+    Real g;        ///< coefficient of u_N - u_P in the flux
+    Vec3 u_N;      ///< velocity of N
+    Tensor L_N;    ///< velocity gradient of N
+    Vec3 m;        ///< sum of the normals m of P and N, zero with one viscosity
+    bool in_zone;  ///< whether P or N is in the simplex zone
+  };
+  Line line(const ElasticTerms& solid, const FaceWeights& weights, Index f) const;
+
+  /// The flux of the explicit term along a line, l = alpha_f lambda_B. Raises k, kappa of the
   /// face, to what the flux needs.
-  Vec3 damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights, Index f,
+  Vec3 damping(Real& k, const ElasticTerms& solid, const FaceWeights& weights, const Line& line,
                Real l) const;
-  /// How fast the rise of u from the owner of face f to the neighbour changes along the stream, the
-  /// part b of it.
-  Vec3 change_of_rise(const ElasticTerms& solid, Index f) const;
+  /// How fast the rise u_N - u_P changes along the stream, the part b of it.
+  Vec3 change_of_rise(const ElasticTerms& solid, const Line& line) const;
 
   const Mesh& mesh_;
   const SimplexZone& zone_;
-  std::vector<Real> inertia_;  // [n_internal] mu_rho dt / (rho |d|^2)
+  SymmetryFaces symmetry_;
+  std::vector<Real> inertia_;  // [n_faces] mu_rho dt / (rho |d|^2)
   std::vector<Index> last_faces_;
 };
 

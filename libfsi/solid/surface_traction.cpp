@@ -117,12 +117,13 @@ void SurfaceTraction::fit(const Surface& surface, Index c) {
   SlopeFit fit;
   Vec3 k, h;
   Real q = 0;
-  for_neighbours_and_images(c, symmetry_, mesh_, [&](Index n, const Vec3& r, const Vec3& plane) {
-    const Real depth = std::min(Real{0}, height + dot(m, r)) - std::min(Real{0}, height);
-    const Vec3 du = image(surface.u[n], plane) - surface.u[c];
-    const Real w = fit.add(r, du);
-    k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
-  });
+  for_neighbours_and_images(
+      c, symmetry_, mesh_, [&](Index n, const Vec3& r, const Reflection& plane) {
+        const Real depth = std::min(Real{0}, height + dot(m, r)) - std::min(Real{0}, height);
+        const Vec3 du = image(surface.u[n], plane) - surface.u[c];
+        const Real w = fit.add(r, du);
+        k += (w * depth) * r, q += w * depth * depth, h += (w * depth) * du;
+      });
   constexpr Real flat = 1e-3;  // part below which a direction is not spanned
   if (!tells(fit.M, mesh_.dim, flat)) {
     L_[c] = surface.L[c], kink_[c] = {};
@@ -145,10 +146,11 @@ void SurfaceTraction::extend(CellField<T>& own, const Band& band) {
       if (touch_[c] == 0 || has_own_[c] > 0) continue;
       T sum;
       Real weight = 0;
-      for_neighbours_and_images(c, symmetry_, mesh_, [&](Index n, const Vec3& r, const Vec3& m) {
-        if (has_own_[n] == 0 || has_own_[n] > ring) return;
-        sum += (1 / norm2(r)) * image(own[n], m), weight += 1 / norm2(r);
-      });
+      for_neighbours_and_images(c, symmetry_, mesh_,
+                                [&](Index n, const Vec3& r, const Reflection& m) {
+                                  if (has_own_[n] == 0 || has_own_[n] > ring) return;
+                                  sum += (1 / norm2(r)) * image(own[n], m), weight += 1 / norm2(r);
+                                });
       if (weight > 0) own[c] = (1 / weight) * sum, has_own_[c] = ring + 1;
     }
   }
@@ -341,7 +343,8 @@ void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<
     }
     if (touched == 0) continue;
     if (in) {
-      if (simplex && f < mesh_.n_internal) stiff[f] += implicit_share * (mu_.solid - mu_.fluid);
+      if (simplex && (f < mesh_.n_internal || symmetry_.has(f, mesh_)))
+        stiff[f] += implicit_share * (mu_.solid - mu_.fluid);
       continue;
     }
     // mu_h / mu_s

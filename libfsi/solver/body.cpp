@@ -23,7 +23,7 @@ std::vector<char> on_faces(const std::vector<Patch>& patches, const Mesh& mesh) 
 }
 
 Kinematics make(const Mesh& mesh, KinematicsKind kind, const SymmetryFaces& symmetry) {
-  if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh);
+  if (kind == KinematicsKind::left_cauchy_green) return solid::LeftCauchyGreen(mesh, symmetry);
   if (kind == KinematicsKind::reference_map)
     return solid::ReferenceMap(mesh, solid::ReferenceMap::Role::alone, {}, symmetry);
   return solid::LogConformation(mesh, symmetry);
@@ -49,6 +49,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       weight(rho * solid.acceleration + (rho - physics.rho) * physics.gravity),
       alpha(mesh),
       filled(vof::fill(alpha, mesh, solid.shape, patches.mirrors)),
+      cut(filled.cut_by.faces, mesh),
       alpha_mid(mesh),
       B(mesh),
       alpha_f(mesh),
@@ -57,12 +58,13 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       law(solid.law),
       touched(mesh),
       interface(mesh),
-      reconstruct_scratch(mesh, {filled.cut_by.faces}),
-      advect_scratch(mesh, {filled.cut_by.faces}),
+      reconstruct_scratch(mesh, cut),
+      advect_scratch(mesh, cut),
       band(mesh),
-      kinematics(make(mesh, solid.kinematics, {filled.cut_by.faces})),
+      kinematics(make(mesh, solid.kinematics, cut)),
       elastic_force(mesh, weights, G),
-      semi_implicit_elasticity(mesh, weights, zone),
+      mirror(on_faces(patches.mirrors, mesh), mesh),
+      semi_implicit_elasticity(mesh, weights, zone, mirror),
       wave_width(solid::wave_widths(
           mesh, semi_implicit() ? solid::WaveWidth::of_neighbourhood : solid::WaveWidth::own)),
       grad(mesh),
@@ -71,7 +73,6 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       hold_scratch(mesh),
       pieces(mesh),
       left_out(mesh),
-      mirror{patches.mirrors.empty() ? std::vector<char>{} : on_faces(patches.mirrors, mesh)},
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, patches.walls);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
@@ -86,8 +87,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
   film_thickness = solid.film_thickness;
   alpha_mid.assign(alpha);
   if (held && solid.kinematics == KinematicsKind::log_conformation) {
-    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, patches.walls,
-                   SymmetryFaces{filled.cut_by.faces});
+    memory.emplace(mesh, solid::ReferenceMap::Role::beside_psi, patches.walls, cut);
     memory->hold(at_still);
     memory->set_undeformed(alpha);
   }
@@ -172,8 +172,7 @@ void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
     kink_profile.emplace(mesh);
   }
   if (extended() && mu != physics.mu_f && physics.mu_f > 0)
-    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f},
-                            SymmetryFaces{filled.cut_by.faces});
+    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f}, cut);
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
 }

@@ -171,6 +171,7 @@ struct Body {
   Vec3 weight;                 ///< body force per volume: rho a + (rho - rho_fluid) g
   CellField<Real> alpha;       ///< volume fraction of the solid
   vof::Filled filled;          ///< volume, its error, and what cuts it at the start
+  SymmetryFaces cut;           ///< planes of symmetry that cut it
   CellField<Real> alpha_mid;   ///< mean of alpha before and after the last step
   CellField<SymTensor> B;      ///< on the band's cells, zero elsewhere; owned and halo
   FaceField<Real> alpha_f;     ///< part of solid at the band's faces
@@ -192,6 +193,7 @@ struct Body {
   Band band;                                               ///< of the cells with stress
   Kinematics kinematics;                                   ///< how the strain is carried
   solid::ElasticForce elastic_force;                       ///< div tau
+  SymmetryFaces mirror;                                    ///< planes of symmetry
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
   std::vector<Real> wave_width;                            ///< of owned cells, for the step's limit
   std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
@@ -222,7 +224,6 @@ struct Body {
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
   int interface_parts = 1;        ///< into which the last step was divided for the interface
-  SymmetryFaces mirror;           ///< planes of symmetry
   std::vector<char> specks;       ///< [n_owned] scratch
   Real volume_out = 0;            ///< volume that left the mesh or was taken out
   Real residue = 0;               ///< the part of it that was taken out at the end

@@ -15,22 +15,29 @@ namespace fsi {
 namespace {
 
 /// L = grad u on the listed owned cells; its halo.
-void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, const FlowAround& flow, const Mesh& mesh,
-           std::span<const Index> cells) {
-  gradient(L, u, flow.u_b, flow.u_stencil, mesh, cells);
+void set_L(CellField<Tensor>& L, const CellField<Vec3>& u, const BoundaryField<Vec3>& u_b,
+           const FlowAround& flow, const Mesh& mesh, std::span<const Index> cells) {
+  gradient(L, u, u_b, flow.u_stencil, mesh, cells);
   mesh.halo.update(L);
 }
 
 /// u = the flow's; in the known ones of the listed cells utilde, corrected by the fluxes
-/// (solenoidal.hpp); owned and halo.
-void set_velocity_of_fluxes(CellField<Vec3>& u, const Body& body, const CellField<Tensor>& L,
-                            const FlowAround& flow, std::span<const Index> cells) {
+/// (solenoidal.hpp); owned and halo. u_b = the flow's, on planes of symmetry the part of u along
+/// the plane.
+void set_velocity_of_fluxes(CellField<Vec3>& u, BoundaryField<Vec3>& u_b, const Body& body,
+                            const CellField<Tensor>& L, const FlowAround& flow,
+                            std::span<const Index> cells) {
+  const Mesh& mesh = body.mesh;
   const solid::FlowSnapshot snapshot{flow.phi, flow.u, L, flow.pressure.cells, body.weights};
-  u.assign(flow.u);
-  for (const Index c : cells)
-    if (body.alpha_mid[c] >= solid::alpha_known && !body.zone.has(c))
-      u[c] = solid::velocity_of_fluxes(snapshot, body.alpha_mid, body.mesh, c);
-  body.mesh.halo.update(u);
+  u.assign(flow.u), u_b.assign(flow.u_b);
+  for (const Index c : cells) {
+    if (body.alpha_mid[c] < solid::alpha_known || body.zone.has(c)) continue;
+    u[c] = solid::velocity_of_fluxes(snapshot, body.alpha_mid, mesh, c);
+    for (const Index f : mesh.cell_faces[c])
+      if (body.mirror.has(f, mesh))
+        u_b[f - mesh.n_internal] = u[c] - (dot(u[c], mesh.Sf[f]) / norm2(mesh.Sf[f])) * mesh.Sf[f];
+  }
+  mesh.halo.update(u);
 }
 
 const solid::InterfaceGradient* one_sided_of(const Body& body) {
@@ -136,7 +143,7 @@ void transport_memory(Body& body, CellField<Tensor>& L, const FlowAround& flow) 
   if (!body.remembers()) return;
   solid::ReferenceMap& map = *body.memory;
   map.mark(body.alpha);
-  if (!flow.has_L) set_L(L, flow.u, flow, body.mesh, map.strain_cells());
+  if (!flow.has_L) set_L(L, flow.u, flow.u_b, flow, body.mesh, map.strain_cells());
   solid::FlowSnapshot snapshot = snapshot_of(body, flow.u, L, flow);
   if (body.film) {
     body.film->set(body.alpha);
@@ -166,14 +173,15 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
         const auto cells = k.strain_cells();
         if (by_flux) {
           body.set_touched(cells, flow.open);
-          set_velocity_of_fluxes(flow.by_flux->u, body, L, flow, cells);
-          set_L(flow.by_flux->L, flow.by_flux->u, flow, body.mesh, cells);
+          auto& [u, u_b, L_of_u] = *flow.by_flux;
+          set_velocity_of_fluxes(u, u_b, body, L, flow, cells);
+          set_L(L_of_u, u, u_b, flow, body.mesh, cells);
         } else if (!flow.has_L) {
-          set_L(L, flow.u, flow, body.mesh, cells);
+          set_L(L, flow.u, flow.u_b, flow, body.mesh, cells);
         }
         if (one_sided) {
           auto& kink = *body.kink_profile;
-          kink.set(body.interface, body.weights);
+          kink.set(body.interface, body.weights, body.cut);
           one_sided->apply(L, flow.u, flow.u_b,
                            {fraction, kink.normal, kink.solid_side, kink.fluid_side}, cells);
           one_sided->set_strain(L, flow.u, flow.u_b, fraction, cells);

@@ -9,12 +9,13 @@
 namespace fsi {
 
 /// Scratch of a solid whose strain is corrected by the fluxes (Body::strain_by_flux): the velocity
-/// utilde of solid/solenoidal.hpp, and its gradient.
+/// utilde of solid/solenoidal.hpp, at the boundary too, and its gradient.
 struct StrainByFlux {
   /// Zero fields; mesh must outlive them.
-  explicit StrainByFlux(const Mesh& mesh) : u(mesh), L(mesh) {}
-  CellField<Vec3> u;    ///< utilde
-  CellField<Tensor> L;  ///< its gradient
+  explicit StrainByFlux(const Mesh& mesh) : u(mesh), u_b(mesh), L(mesh) {}
+  CellField<Vec3> u;        ///< utilde
+  BoundaryField<Vec3> u_b;  ///< on the boundary
+  CellField<Tensor> L;      ///< its gradient
 };
 
 /// The flow that carries and strains the solids, and on which they act, at t^n; cell fields owned

@@ -95,7 +95,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
                   setup.non_orthogonal_correctors,
                   mirrors_of(conditions_, static_cast<bool>(driving_force_), mesh)),
       loads_(mesh, projection_, openings_, physics.rho),
-      viscous_pressure_(mesh, weights_),
+      viscous_pressure_(mesh, weights_, faces_where(conditions_, mesh, lets_slip)),
       bulk_friction_(mesh, projection_, openings_),
       wall_parabola_(mesh, conditions_, u_stencil_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),

@@ -194,7 +194,7 @@ AdvectReport advect(CellField<Real>& alpha, const Interface& interface, const Fa
   clear(s);
   find_faces(alpha, mesh, s);
   interface_velocity(interface, u, mesh, s);
-  if (s.any_bends) set_bend(s.bend, interface, mesh, s.cell);
+  if (s.any_bends) set_bend(s.bend, interface, mesh, s.symmetry, s.cell);
   solid_fluxes(alpha, interface, phi, dt, mesh, s);
   AdvectReport report;
   report.courant = courant_number(phi, dt, mesh, s);

@@ -4,7 +4,7 @@
 
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/least_squares.hpp"
-#include "libfsi/operators/stencil.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 
 namespace fsi::vof {
 namespace {
@@ -28,19 +28,21 @@ bool any_cell_bends(const Mesh& mesh) {
 }
 
 void set_bend(CellField<Bend>& bend, const Interface& interface, const Mesh& mesh,
-              geometry::Polytope& cell) {
+              const SymmetryFaces& symmetry, geometry::Polytope& cell) {
   constexpr Real same_side = 0.5, told = 1e-2;
   for (const Index c : interface.cells) {
     if (!bends(mesh, c)) continue;
     const Piece& p = interface.piece[c];
     // All planes have the same weight: the normals of near ones differ by their errors.
     SlopeFit fit;
-    for_vertex_images(c, mesh, [&](Index k, const Vec3& t) {
+    const auto add = [&](const Vec3& centre, const Vec3& n_hat) {
+      const Vec3 r = centre - p.centre, along = r - dot(r, p.n_hat) * p.n_hat;
+      if (dot(p.n_hat, n_hat) < same_side || !(norm2(along) > 0)) return;
+      fit.M += square(along), fit.R += outer(n_hat - p.n_hat, along);
+    };
+    for_neighbours_and_images(c, symmetry, mesh, [&](Index k, const Vec3& r, const Reflection& of) {
       const Piece& q = interface.piece[k];
-      if (!(q.area > 0) || dot(p.n_hat, q.n_hat) < same_side) return;
-      const Vec3 r = q.centre + t - p.centre, along = r - dot(r, p.n_hat) * p.n_hat;
-      if (!(norm2(along) > 0)) return;
-      fit.M += square(along), fit.R += outer(q.n_hat - p.n_hat, along);
+      if (q.area > 0) add(mesh.C[c] + r + image(q.centre - mesh.C[k], of), image(q.n_hat, of));
     });
     SymTensor K = along_plane(fit.slope(told), p.n_hat);
     const Real size = std::sqrt(contract(K, K)), most = 1 / cell_size(mesh, c);

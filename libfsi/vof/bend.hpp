@@ -1,6 +1,7 @@
 #pragma once
 // How the interface bends within a cell.
 
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi::vof {
@@ -23,8 +24,8 @@ bool any_cell_bends(const Mesh& mesh);
 
 /// Sets K by a least-squares fit to the normals of the planes around that face the same way; at
 /// most 1 over the size of the cell. Works on owned cells of the interface that bend, and sets the
-/// halo. cell: scratch.
+/// halo. symmetry: faces beyond which the planes have images. cell: scratch.
 void set_bend(CellField<Bend>& bend, const Interface& interface, const Mesh& mesh,
-              geometry::Polytope& cell);
+              const SymmetryFaces& symmetry, geometry::Polytope& cell);
 
 }  // namespace fsi::vof

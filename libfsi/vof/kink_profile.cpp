@@ -6,7 +6,8 @@
 
 namespace fsi::vof {
 
-void KinkProfile::set(const Interface& interface, const FaceWeights& weights) {
+void KinkProfile::set(const Interface& interface, const FaceWeights& weights,
+                      const SymmetryFaces& symmetry) {
   for (const Index c : cells_) normal[c] = {}, solid_side[c] = fluid_side[c] = 0;
   cells_ = interface.cells;
   for (const Index c : cells_) {
@@ -14,10 +15,12 @@ void KinkProfile::set(const Interface& interface, const FaceWeights& weights) {
     const Real s = dot(piece.n_hat, mesh_.C[c] - piece.centre), own = std::max(Real{0}, s);
     Real sum = 0, whole = 0;
     for (const Index f : mesh_.cell_faces[c]) {
-      const Real g = weights.g[f];
+      const bool internal = f < mesh_.n_internal, mirrored = symmetry.has(f, mesh_);
+      const Vec3 d = mirrored ? to_image(mesh_, f) : mesh_.d[f];
+      const Real g = mirrored ? norm2(mesh_.Sf[f]) / dot(mesh_.Sf[f], d) : weights.g[f];
       whole += g;
-      if (f >= mesh_.n_internal) continue;
-      const Real lambda = weights.lambda[f], along = dot(piece.n_hat, mesh_.d[f]);
+      if (!internal && !mirrored) continue;
+      const Real lambda = internal ? weights.lambda[f] : 0.5, along = dot(piece.n_hat, d);
       const Real solid = swept_part(mesh_, f, c, piece, lambda * along, (lambda - 1) * along);
       const Real rise = mesh_.owner[f] == c ? along : -along;
       sum += g * (std::max(Real{0}, s + rise) - own - (1 - solid) * rise);

@@ -6,6 +6,7 @@
 #include "libfsi/field/field.hpp"
 #include "libfsi/mesh/mesh.hpp"
 #include "libfsi/operators/face_weights.hpp"
+#include "libfsi/operators/symmetry_faces.hpp"
 #include "libfsi/vof/reconstruct.hpp"
 
 namespace fsi::vof {
@@ -23,8 +24,9 @@ class KinkProfile {
   explicit KinkProfile(const Mesh& mesh)
       : normal(mesh), solid_side(mesh), fluid_side(mesh), mesh_(mesh) {}
 
-  /// Collective. interface: of this rank's cells.
-  void set(const Interface& interface, const FaceWeights& weights);
+  /// Collective. interface: of this rank's cells. symmetry: faces beyond which a cell has an image.
+  void set(const Interface& interface, const FaceWeights& weights,
+           const SymmetryFaces& symmetry = {});
 
   CellField<Vec3> normal;      ///< n_hat; zero in cells that are not cut; owned and halo
   CellField<Real> solid_side;  ///< l_+, for the solid's side; owned and halo

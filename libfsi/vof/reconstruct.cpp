@@ -72,7 +72,7 @@ void reconstruct_distance(const Interface& interface, const Mesh& mesh, Reconstr
       continue;
     }
     Real sum = 0, total = 0;
-    const auto add = [&](Index k, const Vec3& r, const Vec3& n) {
+    const auto add = [&](Index k, const Vec3& r, const Reflection& n) {
       const Piece& p = interface.piece[k];
       if (!(p.area > 0)) return;
       const Vec3 d = -r - image(p.centre - mesh.C[k], n);
@@ -104,7 +104,7 @@ Change new_normals(const Interface& interface, const Mesh& mesh, ReconstructScra
     const Vec3 n = g / size;
     Real bent = 0;
     int count = 0;
-    const auto add = [&](Index k, const Vec3& /*r*/, const Vec3& plane) {
+    const auto add = [&](Index k, const Vec3& /*r*/, const Reflection& plane) {
       const Piece& p = interface.piece[k];
       if (p.area > 0) bent += 1 - dot(image(p.n_hat, plane), s.normal[i]), ++count;
     };

@@ -79,11 +79,11 @@ TEST(Extension, IsExactInTwoLayersBetweenPlanesOfSymmetry) {
   };
   Known run({.n = {20, 20, 2}, .length = {1, 1, 0.1}}, 0.7, in_plane);
   const Mesh& mesh = run.mesh;
-  SymmetryFaces planes{std::vector<char>(static_cast<std::size_t>(mesh.n_boundary()), 0)};
+  std::vector<char> faces(static_cast<std::size_t>(mesh.n_boundary()), 0);
   for (const Patch& patch : mesh.patches)
     for (Index f = patch.begin; f < patch.end; ++f)
-      planes.is[f - mesh.n_internal] = std::abs(mesh.Sf[f].z) > 0 ? 1 : 0;
-  solid::Extension extension(mesh, planes);
+      faces[f - mesh.n_internal] = std::abs(mesh.Sf[f].z) > 0 ? 1 : 0;
+  solid::Extension extension(mesh, {faces, mesh});
   for (Index c = 0; c < mesh.n_cells; ++c) {
     run.alpha[c] = std::hypot(mesh.C[c].x - 0.5, mesh.C[c].y - 0.5) < 0.28 ? 1 : 0;
     run.T[c] = run.alpha[c] * in_plane(mesh.C[c]);

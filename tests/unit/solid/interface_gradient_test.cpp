@@ -98,10 +98,11 @@ TEST(InterfaceGradient, SeesImagesAtAPlaneOfSymmetry) {
       const Vec3& own = u[mesh.owner[f]];
       u_b[f - mesh.n_internal] = own - (dot(own, mesh.Sf[f]) / norm2(mesh.Sf[f])) * mesh.Sf[f];
     }
-    solid::BoundarySides sides{.given = std::vector<char>(u_b.size(), 0),
-                               .symmetry = {std::vector<char>(u_b.size(), 0)}};
+    std::vector<char> faces(u_b.size(), 0);
     const Patch& plane = mesh.patch("bottom");
-    for (Index f = plane.begin; f < plane.end; ++f) sides.symmetry.is[f - mesh.n_internal] = 1;
+    for (Index f = plane.begin; f < plane.end; ++f) faces[f - mesh.n_internal] = 1;
+    solid::BoundarySides sides{.given = std::vector<char>(u_b.size(), 0),
+                               .symmetry = {faces, mesh}};
     std::vector<Index> cells;
     for (Index c = 0; c < mesh.n_owned; ++c)
       if (mesh.C[c].y < 0.5 && std::abs(mesh.C[c].x - 0.5) < 0.35 &&

@@ -23,10 +23,10 @@ TEST(Image, IsItsOwnInverseAndThatOfAProduct) {
 }
 
 SymmetryFaces faces_of(const Mesh& mesh, const char* patch) {
-  SymmetryFaces symmetry{std::vector<char>(static_cast<std::size_t>(mesh.n_boundary()), 0)};
+  std::vector<char> faces(static_cast<std::size_t>(mesh.n_boundary()), 0);
   const Patch& of = mesh.patch(patch);
-  for (Index f = of.begin; f < of.end; ++f) symmetry.is[f - mesh.n_internal] = 1;
-  return symmetry;
+  for (Index f = of.begin; f < of.end; ++f) faces[f - mesh.n_internal] = 1;
+  return {faces, mesh};
 }
 
 /// Sums over the part z > 1/2 of a box that is full of solid within 0.3 of its middle: of |d|^2 and

@@ -26,7 +26,7 @@ TEST(SemiImplicitElasticity, KappaIsAShareOfTheStressOfAStep) {
   const CellField<Vec3> u(mesh);
   const CellField<Tensor> L(mesh);
   const SimplexZone zone(mesh);
-  SemiImplicitElasticity elasticity(mesh, weights, zone);
+  SemiImplicitElasticity elasticity(mesh, weights, zone, {});
   FaceField<Real> kappa(mesh), stiffness(mesh);
   CellField<Vec3> force(mesh);
   const Real G = 2, dt = 0.8;  // so long that e asks for no more
@@ -108,7 +108,7 @@ struct Stiff {
   FaceField<Real> share{mesh}, kappa{mesh}, stiffness{mesh};
   Band band{mesh};
   SimplexZone zone{mesh};
-  SemiImplicitElasticity elasticity{mesh, weights, zone};
+  SemiImplicitElasticity elasticity{mesh, weights, zone, {}};
 };
 
 Real kappa_of(const Stiff& stiff, Real l) {

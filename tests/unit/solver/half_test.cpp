@@ -23,14 +23,30 @@ constexpr Index n = 16;  // cells across
 constexpr Real mu = 0.05, dt = 0.005;
 constexpr int steps = 20;
 
-Mesh channel(Index across, bool open = false) {
+Mesh channel(Index across, bool open = false, bool simplex = false) {
   return test::read_box(
       {.n = {2 * n, across, 0},
        .length = {2, static_cast<Real>(across) / n, 1},
-       .periodic = open ? std::vector<std::string>{} : std::vector<std::string>{"left", "right"}});
+       .simplex = simplex,
+       .periodic = open ? std::vector<std::string>{} : std::vector<std::string>{"left", "right"},
+       .mirrored = across == n ? "y" : ""});
 }
 
-Conditions conditions(const Condition& top, bool open) {
+/// A duct along x, periodic, between walls at y = 0, 1 and z = 0, 1; or the lower half or quarter.
+Mesh duct(Index across_y, Index across_z, bool simplex) {
+  constexpr Index whole = 8;
+  return test::read_box(
+      {.n = {2 * whole, across_y, across_z},
+       .length = {2, static_cast<Real>(across_y) / whole, static_cast<Real>(across_z) / whole},
+       .simplex = simplex,
+       .periodic = {"left", "right"},
+       .mirrored = std::string(across_y == whole ? "y" : "") + (across_z == whole ? "z" : "")});
+}
+Conditions of_duct(const Condition& top, const Condition& front) {
+  return {{"bottom", Wall{}}, {"top", top}, {"back", Wall{}}, {"front", front}};
+}
+
+Conditions conditions(const Condition& top, bool open = false) {
   Conditions all{{"bottom", Wall{}}, {"top", top}};
   if (open) {
     all.emplace("left", FixedVelocity{[](const Vec3&, Real) { return Vec3{1, 0, 0}; }});
@@ -41,21 +57,37 @@ Conditions conditions(const Condition& top, bool open) {
 
 /// A plug that the walls slow down, so that u_y is not 0.
 Vec3 start(const Vec3& x) {
-  return {1 + 0.2 * std::sin(std::numbers::pi * x.x) * std::cos(2 * std::numbers::pi * x.y),
-          0.1 * std::sin(2 * std::numbers::pi * x.y), 0};
+  constexpr Real pi = std::numbers::pi;
+  return {1 + 0.2 * std::sin(pi * x.x) * std::cos(2 * pi * x.y) * std::cos(2 * pi * x.z),
+          0.1 * std::sin(2 * pi * x.y), 0.1 * std::sin(2 * pi * x.z)};
 }
 
 struct Pair {
-  Pair(const Mesh& whole, const Mesh& half, bool open = false)
-      : of_whole(whole, {.rho = 1, .mu_f = mu}, {.conditions = conditions(Wall{}, open)}),
-        of_half(half, {.rho = 1, .mu_f = mu}, {.conditions = conditions(Slip{}, open)}) {
+  Pair(const Mesh& whole, const Mesh& half, const Conditions& walls, const Conditions& planes)
+      : of_whole(whole, {.rho = 1, .mu_f = mu}, {.conditions = walls}),
+        of_half(half, {.rho = 1, .mu_f = mu}, {.conditions = planes}) {
     of_whole.start(start), of_half.start(start);
-    std::map<std::pair<long, long>, Index> at;
+    std::map<std::array<long, 3>, Index> at;
     const auto place = [](const Vec3& x) {
-      return std::pair{std::lround(1e6 * x.x), std::lround(1e6 * x.y)};
+      return std::array{std::lround(1e4 * x.x), std::lround(1e4 * x.y), std::lround(1e4 * x.z)};
     };
     for (Index c = 0; c < whole.n_cells; ++c) at[place(whole.C[c])] = c;
-    for (Index c = 0; c < half.n_owned; ++c) twin.push_back(at.at(place(half.C[c])));
+    for (Index c = 0; c < half.n_owned; ++c) {
+      const Vec3& x = half.C[c];
+      twin.push_back(at.at(place(x)));
+      for (const Vec3& image :
+           {x, Vec3{x.x, 1 - x.y, x.z}, Vec3{x.x, x.y, 1 - x.z}, Vec3{x.x, 1 - x.y, 1 - x.z}})
+        if (const auto found = at.find(place(image)); found != at.end())
+          images.emplace_back(found->second, c);
+    }
+  }
+  /// Gives both the same alpha. The division of a tetrahedron depends on the order of its corners,
+  /// and alpha on the division.
+  void share_alpha() {
+    Body &whole = of_whole.bodies().front(), &half = of_half.bodies().front();
+    for (const auto& [w, h] : images) whole.alpha[w] = half.alpha[h];
+    whole.alpha_mid.assign(whole.alpha);
+    whole.resume();
   }
   void run() {
     for (int i = 0; i < steps; ++i) of_whole.step(dt), of_half.step(dt);
@@ -69,7 +101,8 @@ struct Pair {
     return global_max(most);
   }
   Solver of_whole, of_half;
-  std::vector<Index> twin;  // cells of the whole
+  std::vector<Index> twin;                      // cells of the whole
+  std::vector<std::pair<Index, Index>> images;  // cells of the whole and their images in the half
 };
 
 /// The largest difference of alpha.
@@ -81,11 +114,15 @@ Real alpha_apart(const Pair& pair) {
   return global_max(most);
 }
 
+// On triangles u was off by 5e-4 with means over the vertices of a plane of one side's cells alone.
 TEST(Half, OfAFlowIsThatOfTheWhole) {
-  const Mesh whole = channel(n), half = channel(n / 2);
-  Pair pair(whole, half);
-  pair.run();
-  EXPECT_LT(pair.apart(), 1e-8);
+  for (const bool simplex : {false, true}) {
+    const Mesh whole = channel(n, false, simplex), half = channel(n / 2, false, simplex);
+    Pair pair(whole, half, conditions(Wall{}), conditions(Slip{}));
+    pair.run();
+    std::printf("flow: u %.1e\n", pair.apart());
+    EXPECT_LT(pair.apart(), 5e-8);
+  }
 }
 
 // The Taylor-Green vortex between four planes. With a pressure that is continued linearly to the
@@ -121,15 +158,22 @@ TEST(Half, AVortexBetweenPlanesIsExactAtThePlanesToo) {
   EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8);
 }
 
-/// A disc with this part of the fluid's viscosity.
-void compare_solid(Real ratio, bool memory, Real bound) {
-  const Mesh whole = channel(n), half = channel(n / 2);
-  Pair pair(whole, half);
+struct Scene {
+  bool simplex = false;
+  KinematicsKind kinematics = KinematicsKind::log_conformation;
+  bool memory = true;
+  Real ratio = 1;  // of the viscosities
+};
+
+/// A body in the middle.
+void compare_body(Pair& pair, const shapes::Shape& shape, const Scene& scene, Real bound) {
   for (Solver* solver : {&pair.of_whole, &pair.of_half})
-    solver->put_solid({.shape = shapes::translate(shapes::sphere(0.29), {0.6, 0.5, 0}),
+    solver->put_solid({.shape = shape,
                        .G = 1,
-                       .mu = ratio * mu,
-                       .memory = memory});
+                       .mu = scene.ratio * mu,
+                       .kinematics = scene.kinematics,
+                       .memory = scene.memory});
+  pair.share_alpha();
   pair.run();
   const Body &of_whole = *pair.of_whole.body(), &of_half = *pair.of_half.body();
   Real B = 0;
@@ -138,29 +182,59 @@ void compare_solid(Real ratio, bool memory, Real bound) {
     B = std::max(B, std::abs(of_whole.B[w].xx - of_half.B[h].xx) +
                         std::abs(of_whole.B[w].xy - of_half.B[h].xy));
   }
-  std::printf("viscosity %g, memory %d: u %.1e, alpha %.1e, B %.1e\n", ratio, memory, pair.apart(),
-              alpha_apart(pair), global_max(B));
+  std::printf("simplices %d, kinematics %d, memory %d, viscosity %g: u %.1e, alpha %.1e, B %.1e\n",
+              scene.simplex, static_cast<int>(scene.kinematics), scene.memory, scene.ratio,
+              pair.apart(), alpha_apart(pair), global_max(B));
   EXPECT_LT(pair.apart(), bound);
   EXPECT_LT(alpha_apart(pair), bound);
-  EXPECT_LT(global_max(B), 10 * bound);
+  EXPECT_LT(global_max(B), 5 * bound);
 }
 
+/// A disc in the middle of the channel.
+void compare_solid(const Scene& scene, Real bound = 2e-7) {
+  const Mesh whole = channel(n, false, scene.simplex), half = channel(n / 2, false, scene.simplex);
+  Pair pair(whole, half, conditions(Wall{}), conditions(Slip{}));
+  compare_body(pair, shapes::translate(shapes::sphere(0.29), {0.6, 0.5, 0}), scene, bound);
+}
+
+// Without the images of strain, stress, damping and fits u was off by 3.5e-5 on quads, and by 5e-4
+// on triangles.
 TEST(Half, OfASolidIsThatOfTheWhole) {
-  for (const bool memory : {true, false}) compare_solid(1, memory, 1e-4);
+  for (const bool simplex : {false, true}) {
+    compare_solid({.simplex = simplex});
+    compare_solid({.simplex = simplex, .memory = false});
+    compare_solid({.simplex = simplex, .kinematics = KinematicsKind::reference_map});
+    compare_solid({.simplex = simplex, .kinematics = KinematicsKind::left_cauchy_green});
+  }
 }
 
 // The stress of a surface between two viscosities has images beyond the plane, too.
 TEST(Half, OfASolidOfAnotherViscosityIsThatOfTheWhole) {
-  compare_solid(10, true, 1e-4);
-  compare_solid(0.1, true, 2e-4);
-  compare_solid(150, true, 1e-4);
+  for (const Real ratio : {0.1, 10.0, 150.0}) {
+    compare_solid({.ratio = ratio});
+    compare_solid({.simplex = true, .ratio = ratio}, ratio > 100 ? 3e-6 : 2e-7);
+  }
+}
+
+// A quarter has images of images at the edge where its planes meet.
+TEST(Half, OrAQuarterOfASphereIsThatOfTheWhole) {
+  const auto sphere = shapes::translate(shapes::sphere(0.3), {0.6, 0.5, 0.5});
+  for (const bool simplex : {false, true})
+    for (const Real ratio : {1.0, 10.0}) {
+      const Mesh whole = duct(8, 8, simplex), half = duct(4, 8, simplex),
+                 quarter = duct(4, 4, simplex);
+      Pair of_half(whole, half, of_duct(Wall{}, Wall{}), of_duct(Slip{}, Wall{}));
+      compare_body(of_half, sphere, {.simplex = simplex, .ratio = ratio}, 1e-5);
+      Pair of_quarter(whole, quarter, of_duct(Wall{}, Wall{}), of_duct(Slip{}, Slip{}));
+      compare_body(of_quarter, sphere, {.simplex = simplex, .ratio = ratio}, 1e-5);
+    }
 }
 
 // The rule for a solid that an opening has cut must not act on what goes through a plane of
 // symmetry by rounding.
 TEST(Half, OfASolidNearAnOutletIsThatOfTheWhole) {
   const Mesh whole = channel(n, true), half = channel(n / 2, true);
-  Pair pair(whole, half, true);
+  Pair pair(whole, half, conditions(Wall{}, true), conditions(Slip{}, true));
   for (Solver* solver : {&pair.of_whole, &pair.of_half})
     solver->put_solid({.shape = shapes::translate(shapes::sphere(0.29), {1.5, 0.5, 0}),
                        .G = 1,
@@ -169,7 +243,7 @@ TEST(Half, OfASolidNearAnOutletIsThatOfTheWhole) {
   pair.of_half.bodies().front().volume_out = 1e-20;
   pair.run();
   std::printf("near an outlet: alpha %.1e\n", alpha_apart(pair));
-  EXPECT_LT(alpha_apart(pair), 1e-4);
+  EXPECT_LT(alpha_apart(pair), 1e-7);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libfsi/core/parallel.hpp"
@@ -28,6 +29,8 @@ struct BoxFile {
   bool simplex = false;
   std::vector<std::string> periodic{};
   std::function<Vec3(const Vec3&)> moved = [](const Vec3& x) { return x; };
+  /// Axes of y and z along which the simplices of the upper half are images of those of the lower.
+  std::string mirrored{};
   bool shuffled = false;  ///< nodes, elements, and the nodes of triangles and tets in another order
 };
 
@@ -37,6 +40,11 @@ struct Element {
   int type, physical;
   std::vector<Index> nodes;
 };
+
+/// Whether block i of n along an axis is the image of another.
+inline bool is_image(const BoxFile& box, int axis, Index i) {
+  return box.mirrored.find("xyz"[axis]) != std::string::npos && 2 * i >= box.n[axis];
+}
 
 /// Sides (and tets or triangles) of one block with corners numbered as a gmsh hex (quad).
 inline void add_cell(const std::vector<Index>& v, bool simplex, int physical,
@@ -74,7 +82,9 @@ inline std::vector<Element> plane_elements(const BoxFile& box) {
   }
   for (Index j = 0; j < ny; ++j) {
     for (Index i = 0; i < nx; ++i) {
-      add_cell({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, box.simplex, 7, all);
+      std::vector<Index> v{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      if (is_image(box, 1, j)) std::ranges::rotate(v, v.end() - 1);
+      add_cell(v, box.simplex, 7, all);
     }
   }
   return all;
@@ -93,8 +103,9 @@ inline std::vector<Element> space_elements(const BoxFile& box) {
         for (Index j = 0; j < n[b]; ++j) {
           std::array<Index, 3> k{};
           k[axis] = high * n[axis];
+          const bool image_a = is_image(box, a, i), image_b = is_image(box, b, j);
           const auto corner = [&](Index di, Index dj) {
-            k[a] = i + di, k[b] = j + dj;
+            k[a] = image_a ? i + 1 - di : i + di, k[b] = image_b ? j + 1 - dj : j + dj;
             return at(k);
           };
           // Triangles meet along the diagonal from the low to the high corner, as the tets do.
@@ -107,10 +118,21 @@ inline std::vector<Element> space_elements(const BoxFile& box) {
   for (Index k = 0; k < n[2]; ++k) {
     for (Index j = 0; j < n[1]; ++j) {
       for (Index i = 0; i < n[0]; ++i) {
-        add_cell({at({i, j, k}), at({i + 1, j, k}), at({i + 1, j + 1, k}), at({i, j + 1, k}),
-                  at({i, j, k + 1}), at({i + 1, j, k + 1}), at({i + 1, j + 1, k + 1}),
-                  at({i, j + 1, k + 1})},
-                 box.simplex, 7, all);
+        // An image in one plane has x and y exchanged, which keeps its volume positive.
+        const bool image_y = is_image(box, 1, j), image_z = is_image(box, 2, k);
+        std::vector<Index> v;
+        for (const auto& [x, y, z] : {std::array<Index, 3>{0, 0, 0},
+                                      {1, 0, 0},
+                                      {1, 1, 0},
+                                      {0, 1, 0},
+                                      {0, 0, 1},
+                                      {1, 0, 1},
+                                      {1, 1, 1},
+                                      {0, 1, 1}}) {
+          const auto [dx, dy] = image_y != image_z ? std::pair{y, x} : std::pair{x, y};
+          v.push_back(at({i + dx, image_y ? j + 1 - dy : j + dy, image_z ? k + 1 - z : k + z}));
+        }
+        add_cell(v, box.simplex, 7, all);
       }
     }
   }
