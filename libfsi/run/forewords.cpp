@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "libfsi/core/error.hpp"
@@ -112,6 +113,32 @@ Real mean_edge(const shapes::Shape& shape, const Mesh& mesh) {
   std::array<Real, 4> total{};
   Sum::totals(total, sums);
   return total[1] > 0 ? total[0] / total[1] : total[2] / total[3];
+}
+
+// sin(lean) = |grad s . n| / |grad s| where s = 0 on the plane, s the distance to the surface
+Real lean_at_planes(const shapes::Shape& shape, const std::vector<char>& faces, const Mesh& mesh) {
+  constexpr Real step = 1e-3;  // of the width of a face, for central differences
+  Real most = 0;
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
+    if (faces[f - mesh.n_internal] == 0) continue;
+    const Vec3 x = mesh.Cf[f], n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    const Real area = norm(mesh.Sf[f]), width = mesh.dim == 2 ? area : std::sqrt(area);
+    if (std::abs(shape(x)) > width) continue;
+    const auto slope = [&](const Vec3& at, const Vec3& e) {
+      const Vec3 way = (step * width) * e;
+      return (shape(at + way) - shape(at - way)) / (2 * step * width);
+    };
+    const auto gradient = [&](const Vec3& at) {
+      const Real along_z = mesh.dim == 3 ? slope(at, {0, 0, 1}) : 0;
+      return Vec3{slope(at, {1, 0, 0}), slope(at, {0, 1, 0}), along_z};
+    };
+    Vec3 g = gradient(x);
+    const Vec3 along = g - dot(g, n) * n;
+    if (norm2(along) > 0) g = gradient(x - (shape(x) / norm2(along)) * along);
+    const Real across = std::abs(dot(g, n));
+    if (across > 0) most = std::max(most, std::asin(std::min(Real{1}, across / norm(g))));
+  }
+  return global_max(most) * 180 / std::numbers::pi;
 }
 
 }  // namespace fsi

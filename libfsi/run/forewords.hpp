@@ -2,6 +2,7 @@
 // Figures of a case before its first step, and whether its mesh fits.
 
 #include <string>
+#include <vector>
 
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/of_place_and_time.hpp"
@@ -37,5 +38,9 @@ void require_period_along_x(const Mesh& mesh);
 /// Collective. Mean edge (mesh/gap.hpp) of the cells with their centre in the shape; of all cells
 /// where there are none.
 Real mean_edge(const shapes::Shape& shape, const Mesh& mesh);
+
+/// Collective. By how many degrees at most the surface of the shape is off a right angle to the
+/// boundary faces b with faces[b] != 0 that it meets; 0 if the shape is symmetric about them.
+Real lean_at_planes(const shapes::Shape& shape, const std::vector<char>& faces, const Mesh& mesh);
 
 }  // namespace fsi

@@ -9,6 +9,7 @@
 #include "libfsi/core/eigen.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/run/forewords.hpp"
 #include "libfsi/run/thin_film.hpp"
 
 namespace fsi {
@@ -86,12 +87,22 @@ void tell_of_solids(const Solver& solver) {
   const Real busiest = ranks() > 1 ? solid_cells(solver).busiest : 0;
   if (rank() == 0 && busiest > 0)
     std::printf("solid cells on the ranks: largest over mean %.2f\n", busiest);
-  for (const Body& body : solver.bodies())
+  constexpr Real straight = 1;  // degrees
+  for (const Body& body : solver.bodies()) {
+    const Real lean = lean_at_planes(body.shape, body.filled.cut_by.faces, body.mesh);
+    if (lean > straight)
+      say("warning", name_of(body) +
+                         print(" is cut by a plane of symmetry, and is not symmetric about it: its "
+                               "surface is off a right angle by %.2g degrees. The run takes the "
+                               "part in the mesh and its image, with an edge between them; move "
+                               "its centre into the plane, and turn its axis along or across it",
+                               lean));
     if (body.filled.cut_by.odd)
       say("notice",
           name_of(body) +
               " is cut by parallel, oblique or curved planes of symmetry: its directions, angles, "
               "sections, bending and taylor are those of the part in the mesh");
+  }
 }
 
 void tell_of_missing_solids(const Solver& solver, std::size_t in_case) {

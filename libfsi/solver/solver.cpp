@@ -279,7 +279,8 @@ flow::FluxTerms Solver::flux_terms(Real dt) const {
           .density = heavy_ ? &heavy_->density : nullptr,
           .acceleration = heavy_ ? &heavy_->acceleration : nullptr,
           .stress = modes_.G,
-          .stiffness = modes_.flux_strain ? &stiffness_ : nullptr,
+          .stiffness = &stiffness_,
+          .flux_strain = modes_.flux_strain,
           .excess = dt > 0 ? &excess_ : nullptr,
           .t = state_.t};
 }

@@ -82,6 +82,23 @@ TEST(Forewords, CellsAreCountedWhereTheSolidIs) {
   EXPECT_NEAR(mean_edge(shapes::translate(shapes::sphere(0.1), {9, 9, 9}), cubes), 0.1, 1e-12);
 }
 
+// A sphere of the radius r whose centre is off the plane by r sin a meets it at 90 - a degrees.
+TEST(Forewords, AShapeAskewAtAPlaneOfSymmetryIsFound) {
+  const Mesh mesh = test::read_box({.n = {10, 10, 10}});
+  const auto lean = [&](const Vec3& centre) {
+    const shapes::Shape shape = shapes::translate(shapes::sphere(0.3), centre);
+    std::vector<char> faces(static_cast<std::size_t>(mesh.n_boundary()), 0);
+    for (const Patch& patch : mesh.patches)
+      for (Index f = patch.begin; f < patch.end; ++f)
+        if (patch.name == "bottom") faces[f - mesh.n_internal] = 1;
+    return lean_at_planes(shape, faces, mesh);
+  };
+  EXPECT_LT(lean({0.52, 0, 0.49}), 1e-6);
+  EXPECT_NEAR(lean({0.52, 0.15, 0.49}), 30, 0.5);
+  EXPECT_NEAR(lean({0.52, -0.15, 0.49}), 30, 0.5);
+  EXPECT_EQ(lean({0.52, 0.5, 0.49}), 0) << "not cut";
+}
+
 // A pipe for fsi-pipe may be periodic across, too, and off by rounding.
 TEST(Forewords, APipeComesAgainAlongX) {
   const auto sentence = [](const std::vector<std::string>& periodic, Real angle) {
