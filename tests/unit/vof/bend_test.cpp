@@ -46,7 +46,7 @@ struct SphereOnTets {
     ReconstructScratch scratch(mesh);
     reconstruct(interface, alpha, mesh, scratch);
     geometry::Polytope cell(3);
-    set_bend(bend, interface, mesh, cell);
+    set_bend(bend, interface, mesh, {}, cell);
   }
 };
 
