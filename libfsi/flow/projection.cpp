@@ -15,8 +15,7 @@ Real density(const FluxTerms& terms, Index f) {
 
 /// d_f = t_f / (rho_f + 4 t_f k_f / |d|^2), k_f the sum of all implicit coefficients.
 Real damped(const FluxTerms& terms, const Mesh& mesh, Index f, Real t_f) {
-  const bool strains = terms.flux_strain && terms.stiffness != nullptr;
-  const Real strain = strains ? (*terms.stiffness)[f] : 0;
+  const Real strain = terms.stiffness != nullptr ? (*terms.stiffness)[f] : 0;
   const Real implicit = terms.theta[f] * terms.mu[f] + terms.kappa[f] + 2 * strain;
   return t_f / (density(terms, f) + 4 * t_f * implicit / norm2(mesh.d[f]));
 }

@@ -35,7 +35,6 @@ struct FluxTerms {
   const CellField<Vec3>* acceleration = nullptr;  ///< of cells by all forces; read with a density
   Real stress = 0;                                ///< scale of the elastic stress; 0 without one
   const FaceField<Real>* stiffness = nullptr;     ///< dt G alpha_f lambda_B; null: no solid
-  bool flux_strain = true;                        ///< the flux strains the solid
   const FaceField<Real>* excess = nullptr;        ///< e_f of u^n; null: nothing is held
   Real t = 0;  ///< since the start of the flow; read with e_f only
 };
@@ -60,11 +59,11 @@ void set_flux_excess(FaceField<Real>& excess, const FaceField<Real>& phi, const 
 /// mesh, so no mode grows [Trias14]. The braces compare the averaged gradient of p with the compact
 /// one, and c_f does the same for the elastic normal stress. They vanish for linear fields.
 ///
-/// The term of d_f in lambda_B is present if the flux strains the solid. An alternating elastic
-/// normal stress then makes a flux whose strain removes 8 d_f dt G lambda_B / |d|^2 of it in a
-/// step, which this term keeps below 1. t_f is dt if c_f = 0. Near a solid it is at most 0.02 |d| /
-/// |u_f|, since the jump at the surface makes a flux error in proportion to t_f. From |c_f| = 0 to
-/// 1e-7 of the stress, t_f goes linearly from dt to that bound.
+/// An alternating elastic normal stress makes a flux whose strain removes 8 d_f dt G lambda_B /
+/// |d|^2 of it in a step. The term of d_f in lambda_B keeps that below 1. t_f is dt if c_f = 0.
+/// Near a solid it is at most 0.02 |d| / |u_f|, since the jump at the surface makes a flux error in
+/// proportion to t_f. From |c_f| = 0 to 1e-7 of the stress, t_f goes linearly from dt to that
+/// bound.
 ///
 /// With a density rho is that of the face, and the force on the cells is replaced by that on the
 /// face (flow/density.hpp). If everything moves with one acceleration, Phi(u*) is right already,

@@ -22,6 +22,15 @@ Real shear_rate(const Tensor& L) {
   return std::sqrt(2 * (L.xx * L.xx + L.yy * L.yy + L.zz * L.zz) + xy * xy + xz * xz + yz * yz);
 }
 
+/// s of the owned cells: twice the largest tangent of the angle between d and S, at most 1.
+std::vector<Real> obliqueness(const FaceWeights& weights, const Mesh& mesh) {
+  std::vector<Real> s(static_cast<std::size_t>(mesh.n_owned), 0);
+  for (Index c = 0; c < mesh.n_owned; ++c)
+    for (const Index f : mesh.cell_faces[c])
+      if (f < mesh.n_internal) s[c] = std::clamp(2 * weights.tangent(f, mesh), s[c], Real{1});
+  return s;
+}
+
 /// Collective. Which patches of the mesh have such faces.
 std::vector<bool> patches_of(const SymmetryFaces& symmetry, const Mesh& mesh) {
   std::vector<bool> found;
@@ -47,6 +56,7 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       filled_(mesh),
       slope_(mesh) {
   const FaceWeights weights(mesh);
+  oblique_ = obliqueness(weights, mesh);
   const std::vector<bool> mirrors = patches_of(symmetry, mesh);
   GradientStencil stencil(mesh, weights, mirrors, mirrors);
   of_owner_ = std::move(stencil.owner);
@@ -219,12 +229,13 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
 }
 
 Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const {
-  if (!beside_psi_ || snapshot.one_sided == nullptr || !snapshot.one_sided->zone().has(c))
-    return {};
+  const bool in_zone = snapshot.one_sided != nullptr && snapshot.one_sided->zone().has(c);
+  const Real share = !in_zone ? oblique_[c] : beside_psi_ ? 1 : 0;
+  if (share == 0) return {};
   const auto known = [&](Index k) { return filled_[k] >= alpha_known; };
   const auto rise = [&](Index k, const Vec3& r) { return dot(slope_[k], r); };
   const Real h = cell_size(mesh_, c);
-  return alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
+  return share * alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
          alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 

@@ -31,7 +31,9 @@ namespace fsi::solid {
 /// images,
 ///   xi <- xi + gamma sum_k w_k (xi_k - xi - (grad xi + grad xi_k) / 2 . r_k) / sum_k w_k,
 /// w_k = 1 / |r_k|^2. A velocity that alternates makes no lasting stress, but would distort the
-/// map.
+/// map. Outside the zone the map, alone or as memory, loses the part s gamma. s is twice the
+/// largest tangent of the angle between d and S at the cell, at most 1, so that orthogonal cells
+/// lose nothing.
 ///
 /// Films. In a cell that is left out at a film (WallFilm) the memory tends to that of its vertex
 /// neighbours k farther in, as fast as psi tends to the memory by the flow,
@@ -149,6 +151,7 @@ class ReferenceMap {
   bool beside_psi_;
   CellField<Real> at_wall_;                    ///< 1 in cells with a face on a wall; owned and halo
   std::vector<Vec3> of_owner_, of_neighbour_;  ///< weights of the faces in the gradient of a cell
+  std::vector<Real> oblique_;                  // [n_owned] s
   Band known_;
   MapExtension extension_;
   CellField<Real> filled_;                    // alpha where xihat is set

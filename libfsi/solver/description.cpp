@@ -110,7 +110,7 @@ std::vector<std::string> Solver::describe_step() const {
       {"set_flux_excess", where(!projection_.orthogonal(), "flux less the mean of u")},
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
       {"predict_flux",
-       std::string("phi* of u*") + (modes_.flux_strain ? ", damped by the term in lambda_B" : "")},
+       std::string("phi* of u*") + (modes_.stiff ? ", damped by the term in lambda_B" : "")},
       {"project", projection_.orthogonal() ? "u orthogonally, then phi; p"
                   : loaded                 ? "p, u and phi, with the answers of the openings"
                                            : "p, u and phi"},

@@ -199,7 +199,6 @@ void Solver::set_modes(const Body& body) {
   // theta at one-sided faces moves with the surface, as kappa does.
   modes_.stiff =
       modes_.stiff || (body.semi_implicit() && body.G > 0) || body.interface_gradient.has_value();
-  modes_.flux_strain = modes_.flux_strain || body.strain_by_flux();
   modes_.one_sided = modes_.one_sided || body.interface_gradient;
   modes_.G = std::max(modes_.G, body.G);
   modes_.rho_least = std::min({modes_.rho_least, physics_.rho, body.rho});

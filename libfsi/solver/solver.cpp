@@ -279,8 +279,7 @@ flow::FluxTerms Solver::flux_terms(Real dt) const {
           .density = heavy_ ? &heavy_->density : nullptr,
           .acceleration = heavy_ ? &heavy_->acceleration : nullptr,
           .stress = modes_.G,
-          .stiffness = &stiffness_,
-          .flux_strain = modes_.flux_strain,
+          .stiffness = bodies_.empty() ? nullptr : &stiffness_,
           .excess = dt > 0 ? &excess_ : nullptr,
           .t = state_.t};
 }

@@ -287,7 +287,6 @@ class Solver {
     bool films = false;                ///< mu at walls depends on the films of the solids
     bool stiff = false;                ///< elasticity or convection is partly implicit
     bool implicit_convection = false;  ///< where cells are smaller than those around them
-    bool flux_strain = false;          ///< the face flux strains some solid
     bool one_sided = false;            ///< some solid has a one-sided L at its surface
     Real G = 0;                        ///< the largest
     Real rho_least = std::numeric_limits<Real>::max();  ///< of fluid and solids
