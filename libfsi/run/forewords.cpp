@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/flow/planes_at.hpp"
 #include "libfsi/mesh/figures.hpp"
