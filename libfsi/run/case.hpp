@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libfsi/core/clock.hpp"
 #include "libfsi/core/options.hpp"
 #include "libfsi/mesh/read.hpp"
 #include "libfsi/solver/solver.hpp"

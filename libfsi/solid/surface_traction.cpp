@@ -49,16 +49,17 @@ void SurfaceTraction::clear(const Band& band) {
   jump_force_.clear();
   const auto reset = [&](Index c) { kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0; };
   for (const Index c : last_cells_) reset(c), own_[c] = {};
-  for (const Index f : last_faces_) {
-    reset(mesh_.owner[f]);
-    if (f < mesh_.n_internal) reset(mesh_.neighbour[f]);
-  }
+  for (const Index f : last_faces_) reset(mesh_.owner[f]), reset(second_cell(f));
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 }
 
 Index SurfaceTraction::second_cell(Index f) const {
   return f < mesh_.n_internal ? mesh_.neighbour[f] : mesh_.owner[f];
+}
+
+bool SurfaceTraction::simplex(Index f) const {
+  return mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(second_cell(f));
 }
 
 bool SurfaceTraction::separates(const CutFaces& cut, Index f) const {
@@ -85,7 +86,7 @@ Real SurfaceTraction::harmonic(Real alpha_f, Real mu) const {
 
 Real SurfaceTraction::bounded(const CutFaces& cut, Index f) const {
   const Real whole = mean(cut, f);
-  if (mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(second_cell(f))) return whole;
+  if (simplex(f)) return whole;
   return std::min(whole, harmonic(cut.alpha_f[f], mu_least_) + explicit_ratio_max * mu_.fluid);
 }
 
@@ -334,16 +335,9 @@ void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<
                                         const FaceField<Real>& alpha_f, const Band& band) const {
   const bool in = mu_.solid > mu_.fluid;
   for (const Index f : band.faces()) {
-    const Index P = mesh_.owner[f];
-    Real touched = touch_[P];
-    bool simplex = mesh_.simplex(P);
-    if (f < mesh_.n_internal) {
-      const Index N = mesh_.neighbour[f];
-      touched += touch_[N], simplex = simplex || mesh_.simplex(N);
-    }
-    if (touched == 0) continue;
+    if (touch_[mesh_.owner[f]] + touch_[second_cell(f)] == 0) continue;
     if (in) {
-      if (simplex && (f < mesh_.n_internal || symmetry_.has(f, mesh_)))
+      if (simplex(f) && (f < mesh_.n_internal || symmetry_.has(f, mesh_)))
         stiff[f] += implicit_share * (mu_.solid - mu_.fluid);
       continue;
     }

@@ -137,6 +137,8 @@ class SurfaceTraction {
   /// The neighbour at internal face f. At a plane of symmetry the owner itself, whose image is the
   /// neighbour.
   Index second_cell(Index f) const;
+  /// Whether a cell of face f is a triangle or a tetrahedron.
+  bool simplex(Index f) const;
   /// Half the sum of the owner's value and its image beyond the plane of symmetry at face f.
   template <class T>
   T with_image(const T& of_owner, Index f) const;

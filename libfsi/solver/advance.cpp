@@ -11,6 +11,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/mesh/figures.hpp"
+#include "libfsi/solver/diagnosis.hpp"
 #include "libfsi/solver/solver.hpp"
 
 namespace fsi {
@@ -35,33 +36,34 @@ std::string failure_of(const State& state, Real least_dt) {
                static_cast<long long>(state.step + 1), state.t, least_dt);
 }
 
-}  // namespace
-
-Solver::Rejection Solver::rejection_reason(Real dt) const {
-  if (dt > advective_dt(courant_max))
-    return {"the flow became too fast for the step", Term::convection};
-  if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
-    return {"the flow is not divergence-free", Term::pressure};
-  for (const Body& body : bodies_)
-    if (Rejection of_body = rejection_reason(body, dt); !of_body.reason.empty()) return of_body;
-  return {};
-}
-
-Solver::Rejection Solver::rejection_reason(const Body& body, Real dt) const {
+/// Against what a step of dt leaves of the body; empty where there is nothing.
+Rejection rejection_of(const Body& body, const Solver& solver, Real dt) {
   const std::string which = body.name.empty() ? "the solid" : "solid " + body.name;
   if (body.advected.courant > carried_max)
     return {which + " moved by more than a cell", Term::transport, &body};
   if (body.advected.remaining > fraction_excess_max)
     return {"the fraction of " + which + " left [0, 1]", Term::fraction, &body};
   if (!body.semi_implicit()) return {};
-  if (dt > elastic_max * elastic_dt(body))
+  if (dt > elastic_max * solver.elastic_dt(body))
     return {which + " became too stiff for the step", Term::elasticity, &body};
-  if (dt > strain_dt(solid::strain_max) || body.strain.of_part > solid::strain_max)
+  if (dt > solver.strain_dt(solid::strain_max) || body.strain.of_part > solid::strain_max)
     return {which + " strains too much in the step", Term::strain, &body};
   if (global_min(body.eigenvalue_min) < eigenvalue_limit)
     return {"the smallest eigenvalue of B" + (body.name.empty() ? "" : " of " + which) +
                 " fell below 1e-4",
             Term::eigenvalue, &body};
+  return {};
+}
+
+}  // namespace
+
+Rejection Solver::rejection_reason(Real dt) const {
+  if (dt > advective_dt(courant_max))
+    return {"the flow became too fast for the step", Term::convection};
+  if (report_.pressure_residual * dt > volume_change_max * cells_norm_)
+    return {"the flow is not divergence-free", Term::pressure};
+  for (const Body& body : bodies_)
+    if (Rejection of_body = rejection_of(body, *this, dt); !of_body.reason.empty()) return of_body;
   return {};
 }
 
@@ -93,28 +95,6 @@ bool Solver::stuck(Real dt) {
   tiny_steps_ = dt < tiny * dt_largest_ ? tiny_steps_ + 1 : 0;
   return tiny_steps_ > most;
 }
-
-Solver::Calls::Calls(Profile& profile)
-    : hold_shape(profile.add("hold_shape", "vof")),
-      advance_interface(profile.add("advance_interface", "vof")),
-      separate_bodies(profile.add("separate_bodies", "vof")),
-      advect_pressure_jump(profile.add("advect_pressure_jump", "solid")),
-      set_pressure_gradient(profile.add("set_pressure_gradient", "momentum")),
-      set_velocity_gradient(profile.add("set_velocity_gradient", "momentum")),
-      transport_memory(profile.add("transport_memory", "solid")),
-      transport_elastic(profile.add("transport_elastic", "solid")),
-      mix_viscosity(profile.add("mix_viscosity", "solid")),
-      mix_density(profile.add("mix_density", "solid")),
-      add_elastic_force(profile.add("add_elastic_force", "solid")),
-      add_semi_implicit(profile.add("add_semi_implicit", "solid")),
-      add_body_force(profile.add("add_body_force", "momentum")),
-      balance_weight(profile.add("balance_weight", "pressure")),
-      set_flux_excess(profile.add("set_flux_excess", "flux")),
-      predict_momentum(profile.add("predict_momentum", "momentum")),
-      predict_flux(profile.add("predict_flux", "flux")),
-      project(profile.add("project", "pressure")),
-      hold_mean_velocity(profile.add("hold_mean_velocity", "flux")),
-      check(profile.add("check", "flux")) {}
 
 bool Solver::stands_apart() const {
   return std::ranges::any_of(bodies_, [&](const Body& body) { return body.t != state_.t; });
@@ -167,17 +147,6 @@ void Solver::require_length(Real dt) const {
             state_.t));
 }
 
-void Solver::require_finite(const CellField<Vec3>& u_0) const {
-  Index first = 0;
-  while (first < mesh_.n_owned && std::isfinite(norm2(u_0[first]))) ++first;
-  const bool finite = first == mesh_.n_owned;
-  const Vec3 x = finite ? Vec3{} : mesh_.C[first];
-  const std::vector<Real> all = gathered(std::array{finite ? 0.0 : 1.0, x.x, x.y, x.z});
-  for (std::size_t i = 0; i < all.size(); i += 4)
-    require(all[i] == 0, print("the velocity to start from is not finite at (%.5g, %.5g, %.5g)",
-                               all[i + 1], all[i + 2], all[i + 3]));
-}
-
 // A shorter step would not help.
 bool Solver::balanced(Real t) {
   if (!prescribed_) return true;
@@ -206,7 +175,7 @@ Real Solver::advance(Real dt) {
     try {
       step(dt);
       against = rejection_reason(dt);
-      if (against.reason.empty() && stuck(dt)) against = holder(dt), i = halvings;
+      if (against.reason.empty() && stuck(dt)) against = holder(*this, dt), i = halvings;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerics) throw;
       against = {error.what(), Term::solve, nullptr};

@@ -1,5 +1,5 @@
-// The calls of a step for a solid with another density than the fluid, and for forces that the
-// pressure balances at rest.
+// The calls of a step for a solid with another density than the fluid, and the pressure that
+// balances openings and forces at rest.
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +31,23 @@ void Solver::balance_weight(State& state) {
   } else if (state.step == begun()) {
     add_pressure_of_new_weight(state);
   }
+}
+
+// p = p_0 + q, Lap q = 0, q = p_b - p_0 at the openings: what they press with passes through the
+// fluid at once. p_0, the largest of them, keeps the solver's tolerance to their differences.
+void Solver::set_pressure_of_rest() {
+  if (!projection_.open()) return;
+  const std::vector<char>& open = momentum_.boundary().open;
+  openings_.set_pressure(p_b_, state_.u);
+  Real p_0 = -std::numeric_limits<Real>::max();
+  for (Index b = 0; b < mesh_.n_boundary(); ++b)
+    if (open[b] != 0) p_0 = std::max(p_0, p_b_[b]);
+  p_0 = global_max(p_0);
+  for (Index b = 0; b < mesh_.n_boundary(); ++b) q_b_[b] = open[b] != 0 ? p_b_[b] - p_0 : 0;
+  FaceField<Real> flux(mesh_);
+  projection_.project(flux, q_, grad_q_, q_b_, 0);
+  for (Index c = 0; c < mesh_.n_cells; ++c) state_.p[c] = p_0 + q_[c];
+  q_b_.fill(0);
 }
 
 // What is left of the force then tells how the flow begins. Call 14 balances the first step.

@@ -1,6 +1,8 @@
 // The place where a state is worst, if a run cannot continue: figure, place, cell and the term that
 // asks for a shorter step.
 
+#include "libfsi/solver/diagnosis.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +13,6 @@
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/mesh/quality.hpp"
 #include "libfsi/operators/stencil.hpp"
-#include "libfsi/solver/solver.hpp"
 
 namespace fsi {
 namespace {
@@ -25,6 +26,12 @@ std::vector<Real> figures(const Mesh& mesh, const Figure& figure) {
     values[c] = std::isfinite(value) ? value : std::numeric_limits<Real>::max();
   }
   return values;
+}
+
+/// Collective. The largest figure and its place.
+template <class Figure>
+Worst worst_of(const Figure& figure, const Mesh& mesh) {
+  return worst(figures(mesh, figure), mesh, 1).front();
 }
 
 /// Collective. "at (x, y, z) in a tet of aspect ratio 40 (skewness ..., ...)".
@@ -60,41 +67,108 @@ std::vector<Real> inverse_eigenvalues(const Body& body, const Mesh& mesh) {
   return all_of_ranks(!past) ? all : known;
 }
 
-}  // namespace
-
+/// Collective. Where a figure is largest: "WHAT is 3.2 at ... in ...: WHY".
 template <class Figure>
-std::string Solver::at_worst(const Figure& figure, const char* what, const char* why) const {
-  const Worst w = worst(figures(mesh_, figure), mesh_, 1).front();
-  return what + print(" is %.3g ", w.value) + place(w, mesh_) + (*why != 0 ? ": " : "") + why;
+std::string at_worst(const Mesh& mesh, const Figure& figure, const char* what, const char* why) {
+  const Worst w = worst_of(figure, mesh);
+  return what + print(" is %.3g ", w.value) + place(w, mesh) + (*why != 0 ? ": " : "") + why;
 }
 
-Solver::Rejection Solver::holder(Real dt) const {
+/// Collective. Empty where the body force is not what makes a step of dt too long.
+std::string diagnosis_of_force(const Solver& solver, Term term, Real dt) {
+  const Mesh& mesh = solver.mesh();
+  const auto& driving_force = solver.driving_force();
+  const bool of_flow = term == Term::solve || term == Term::convection || term == Term::pressure;
+  if (!driving_force || !of_flow) return "";
+  // A step that failed in a solve did not reach its end.
+  const Real t = solver.state().t + (term == Term::solve ? dt : -dt) / 2;
+  const auto force = [&](Index c) { return norm(driving_force(mesh.C[c], t)); };
+  // |f| dt^2 / (2 rho h)
+  const auto cells = [&](Index c) {
+    Real widest = 0;
+    for (const Index f : mesh.cell_faces[c]) widest = std::max(widest, norm(mesh.Sf[f]));
+    return force(c) * dt * dt / (2 * solver.physics().rho) * widest / mesh.V[c];
+  };
+  const Worst w = worst_of(cells, mesh);
+  if (!(w.value > 1)) return "";
+  const auto lost = [&](Index c) { return std::isfinite(force(c)) ? 0.0 : 1.0; };
+  if (const Worst first = worst_of(lost, mesh); first.value > 0)
+    return print("the body force has its first value that is not finite at (%.5g, %.5g, %.5g)",
+                 first.x.x, first.x.y, first.x.z);
+  const Real largest = norm(driving_force(w.x, t));
+  return print(
+      "the body force is %.3g at (%.5g, %.5g, %.5g) and would take fluid at rest through %.3g "
+      "cells in the step; look at its size and its units",
+      largest, w.x.x, w.x.y, w.x.z, w.value);
+}
+
+/// Collective. Of a body whose limit a step of dt passes; L: as it strained the body.
+std::string diagnosis_of_solid(const Body& body, const FaceField<Real>& phi,
+                               const CellField<Tensor>& L, Term term, Real dt) {
+  const Mesh& mesh = body.mesh;
+  // Figures of the solid are those of cells with some of it.
+  const auto of_solid = [&](const auto& figure) {
+    return [&](Index c) { return body.alpha[c] > 0 ? figure(c) : 0; };
+  };
+  const auto courant = [&](Index c) { return body.dt * courant_rate(phi, mesh, c); };
+  const auto waves = [&](Index c) {
+    return dt / solid::elastic_time(body.lambda, body.G, body.rho, body.wave_width, {&c, 1});
+  };
+  const std::vector<Real> inverse = inverse_eigenvalues(body, mesh);
+  const auto crushed = [&](Index c) { return inverse[c]; };
+  switch (term) {
+    case Term::transport:
+      return at_worst(mesh, of_solid(courant), "the largest Courant number of the solid's step",
+                      "the transport of the solid limits");
+    case Term::fraction:
+      return at_worst(
+          mesh, [&](Index c) { return std::max(body.alpha[c] - 1, -body.alpha[c]); },
+          "the largest excess of the fraction", "the transport of the solid limits");
+    case Term::elasticity:
+      return at_worst(mesh, of_solid(waves),
+                      "the largest number of cells that the elastic wave passes",
+                      "the solid's stiffness limits");
+    case Term::strain:
+      return at_worst(mesh, of_solid([&](Index c) { return size_of(L[c]); }),
+                      "the largest velocity gradient in the solid", "its rate of strain limits");
+    default:
+      return at_worst(mesh, crushed, "the largest inverse of an eigenvalue of B",
+                      "the solid is crushed there");
+  }
+}
+
+}  // namespace
+
+Rejection holder(const Solver& solver, Real dt) {
   Rejection holder{"a hundred steps in a row of less than a millionth of the largest",
                    Term::convection, nullptr};
-  Real most = dt / advective_dt(1);
-  for (const Body& body : bodies_)
-    if (const Real part = dt / elastic_dt(body); part > most)
+  Real most = dt / solver.advective_dt(1);
+  for (const Body& body : solver.bodies())
+    if (const Real part = dt / solver.elastic_dt(body); part > most)
       most = part, holder.term = Term::elasticity, holder.body = &body;
-  if (bodies_.empty() || dt / strain_dt(solid::strain_max) <= most) return holder;
+  if (solver.bodies().empty() || dt / solver.strain_dt(solid::strain_max) <= most) return holder;
   holder.term = Term::strain;
-  if (holder.body == nullptr) holder.body = body();
+  if (holder.body == nullptr) holder.body = solver.body();
   return holder;
 }
 
 std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
   const Term term = rejection.term;
-  if (std::string of_force = diagnosis_of_force(term, dt); !of_force.empty()) return of_force;
+  if (std::string of_force = diagnosis_of_force(*this, term, dt); !of_force.empty())
+    return of_force;
   if (term == Term::pressure) {
     flow::divergence(divergence_, state_.phi, mesh_);
-    return at_worst([&](Index c) { return dt * std::abs(divergence_[c]); },
-                    "the largest change of volume that the pressure leaves, in parts of the cell,",
-                    "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
+    return at_worst(
+        mesh_, [&](Index c) { return dt * std::abs(divergence_[c]); },
+        "the largest change of volume that the pressure leaves, in parts of the cell,",
+        "the pressure's solver limits (-p_ksp_rtol, -p_ksp_max_it)");
   }
   if (term != Term::convection && term != Term::solve)
-    return diagnosis_of_solid(*rejection.body, term, dt);
+    return diagnosis_of_solid(*rejection.body, state_.phi, L_, term, dt);
   for (const Body& body : bodies_)
     if (body.beyond_law)
       return at_worst(
+          mesh_,
           [&](Index c) { return body.alpha[c] >= solid::alpha_known ? trace(body.B[c]) - 3 : 0; },
           "the largest tr B - 3", "the law of the solid ends there");
   const auto lost = [&](Index c) {
@@ -103,70 +177,15 @@ std::string Solver::diagnosis(const Rejection& rejection, Real dt) {
       if (f >= mesh_.n_internal) sum += norm2(u_b_new_[f - mesh_.n_internal]);
     return std::isfinite(sum) ? 0.0 : 1.0;
   };
-  if (const Worst w = worst(figures(mesh_, lost), mesh_, 1).front(); w.value > 0)
+  if (const Worst w = worst_of(lost, mesh_); w.value > 0)
     return "the first value that is not finite is " + place(w, mesh_);
-  const Worst speed =
-      worst(figures(mesh_, [&](Index c) { return norm(state_.u[c]); }), mesh_, 1).front();
+  const Worst speed = worst_of([&](Index c) { return norm(state_.u[c]); }, mesh_);
   const std::vector<Real> rates = courant_rates();
-  return at_worst([&](Index c) { return dt * rates[c]; }, "the largest Courant number",
-                  term == Term::solve ? "" : "convection limits") +
+  return at_worst(
+             mesh_, [&](Index c) { return dt * rates[c]; }, "the largest Courant number",
+             term == Term::solve ? "" : "convection limits") +
          print("; the largest speed is %.3g at (%.5g, %.5g, %.5g)", speed.value, speed.x.x,
                speed.x.y, speed.x.z);
-}
-
-std::string Solver::diagnosis_of_force(Term term, Real dt) const {
-  const bool of_flow = term == Term::solve || term == Term::convection || term == Term::pressure;
-  if (!driving_force_ || !of_flow) return "";
-  // A step that failed in a solve did not reach its end.
-  const Real t = state_.t + (term == Term::solve ? dt : -dt) / 2;
-  const auto force = [&](Index c) { return norm(driving_force_(mesh_.C[c], t)); };
-  // |f| dt^2 / (2 rho h)
-  const auto cells = [&](Index c) {
-    Real widest = 0;
-    for (const Index f : mesh_.cell_faces[c]) widest = std::max(widest, norm(mesh_.Sf[f]));
-    return force(c) * dt * dt / (2 * physics_.rho) * widest / mesh_.V[c];
-  };
-  const Worst w = worst(figures(mesh_, cells), mesh_, 1).front();
-  if (!(w.value > 1)) return "";
-  const auto lost = [&](Index c) { return std::isfinite(force(c)) ? 0.0 : 1.0; };
-  if (const Worst first = worst(figures(mesh_, lost), mesh_, 1).front(); first.value > 0)
-    return print("the body force has its first value that is not finite at (%.5g, %.5g, %.5g)",
-                 first.x.x, first.x.y, first.x.z);
-  const Real largest = norm(driving_force_(w.x, t));
-  return print(
-      "the body force is %.3g at (%.5g, %.5g, %.5g) and would take fluid at rest through %.3g "
-      "cells in the step; look at its size and its units",
-      largest, w.x.x, w.x.y, w.x.z, w.value);
-}
-
-std::string Solver::diagnosis_of_solid(const Body& body, Term term, Real dt) const {
-  // Figures of the solid are those of cells with some of it.
-  const auto of_solid = [&](const auto& figure) {
-    return [&](Index c) { return body.alpha[c] > 0 ? figure(c) : 0; };
-  };
-  const auto courant = [&](Index c) { return body.dt * courant_rate(state_.phi, mesh_, c); };
-  const auto waves = [&](Index c) {
-    return dt / solid::elastic_time(body.lambda, body.G, body.rho, body.wave_width, {&c, 1});
-  };
-  const std::vector<Real> inverse = inverse_eigenvalues(body, mesh_);
-  const auto crushed = [&](Index c) { return inverse[c]; };
-  switch (term) {
-    case Term::transport:
-      return at_worst(of_solid(courant), "the largest Courant number of the solid's step",
-                      "the transport of the solid limits");
-    case Term::fraction:
-      return at_worst([&](Index c) { return std::max(body.alpha[c] - 1, -body.alpha[c]); },
-                      "the largest excess of the fraction", "the transport of the solid limits");
-    case Term::elasticity:
-      return at_worst(of_solid(waves), "the largest number of cells that the elastic wave passes",
-                      "the solid's stiffness limits");
-    case Term::strain:
-      return at_worst(of_solid([&](Index c) { return size_of(L_[c]); }),
-                      "the largest velocity gradient in the solid", "its rate of strain limits");
-    default:
-      return at_worst(crushed, "the largest inverse of an eigenvalue of B",
-                      "the solid is crushed there");
-  }
 }
 
 }  // namespace fsi

@@ -1,8 +1,13 @@
 #pragma once
-// The fluid, gravity, and a solid as it is put in.
+// What a scene is made of: the fluid and gravity, what drives the flow, and a solid as it is put
+// in.
 
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "libfsi/field/boundary.hpp"
+#include "libfsi/flow/convection.hpp"
 #include "libfsi/shapes/shapes.hpp"
 #include "libfsi/solid/law/law.hpp"
 
@@ -13,6 +18,23 @@ struct Physics {
   Real rho = 1;      ///< density of the fluid, and of a solid without one of its own
   Real mu_f = 0.01;  ///< dynamic viscosity of the fluid
   Vec3 gravity{};    ///< acceleration of fluid and solids; p goes without rho gravity . x
+};
+
+/// What drives and how the flow is solved.
+struct FlowSetup {
+  Conditions conditions{};              ///< one a patch
+  Vec3 axis{1, 0, 0};                   ///< of the mean velocity
+  std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
+  /// Velocity of the frame that conditions, places and results stand in. The equations are the same
+  /// in all; a run tells it, and goes on from checkpoints of the same frame alone.
+  Vec3 frame{};
+  int non_orthogonal_correctors = 1;  ///< solves for the pressure beyond the first
+  flow::Convection convection = flow::Convection::linear;  ///< face values of the velocity
+  /// The cells' own velocities are projected, too, which keeps their kinetic energy
+  /// (flow/orthogonal.hpp). For a fluid alone, and no pressure given.
+  bool orthogonal_projection = false;
+  /// Force per volume on fluid and solid at x and t; none where empty.
+  std::function<Vec3(const Vec3& x, Real t)> body_force{};
 };
 
 /// The kinematics of a solid.

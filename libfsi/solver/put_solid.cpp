@@ -221,7 +221,7 @@ void Solver::set_modes(const Body& body) {
     momentum_.bound_explicit_viscosity(physics_.rho / modes_.rho_least * most);
   }
   if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
-  if ((heavy_ || body.body_force) && !at_rest_) at_rest_.emplace(mesh_);
+  if ((heavy_ || body.body_force) && !at_rest_) at_rest_.emplace(AtRest{mesh_});
   if (body.two_viscosities) {
     if (!stiff_) stiff_.emplace(mesh_);
     momentum_.hold_old();

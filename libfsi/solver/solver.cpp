@@ -1,6 +1,7 @@
 #include "libfsi/solver/solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +59,18 @@ void require_in_plane(const Physics& physics, const OfPlaceAndTime::Function& fo
   require(z == 0, along_z("the body force", z));
 }
 
+/// Collective. Errors: Error{input} where the velocity to start from is not finite.
+void require_finite(const CellField<Vec3>& u_0, const Mesh& mesh) {
+  Index first = 0;
+  while (first < mesh.n_owned && std::isfinite(norm2(u_0[first]))) ++first;
+  const bool finite = first == mesh.n_owned;
+  const Vec3 x = finite ? Vec3{} : mesh.C[first];
+  const std::vector<Real> all = gathered(std::array{finite ? 0.0 : 1.0, x.x, x.y, x.z});
+  for (std::size_t i = 0; i < all.size(); i += 4)
+    require(all[i] == 0, print("the velocity to start from is not finite at (%.5g, %.5g, %.5g)",
+                               all[i + 1], all[i + 2], all[i + 3]));
+}
+
 }  // namespace
 
 Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
@@ -99,7 +112,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
       bulk_friction_(mesh, projection_, openings_),
       wall_parabola_(mesh, conditions_, u_stencil_),
       momentum_(mesh, weights_, conditions_, physics.rho, physics.mu_f, setup.convection),
-      calls_(profile_) {
+      calls_{profile_} {
   require_in_plane(physics, driving_force_, mesh);
   for (const Condition& condition : conditions_)
     leaves_ = leaves_ || fixes_pressure(condition) || prescribes_flow(condition);
@@ -108,7 +121,7 @@ Solver::Solver(const Mesh& mesh, const Physics& physics, const FlowSetup& setup)
   if (courant_.any_simplex() && !setup.orthogonal_projection)
     stiff_.emplace(mesh), modes_.stiff = modes_.implicit_convection = true;
   if (setup.orthogonal_projection) make_orthogonal();
-  if (driving_force_ && !setup.orthogonal_projection) at_rest_.emplace(mesh_);
+  if (driving_force_ && !setup.orthogonal_projection) at_rest_.emplace(AtRest{mesh_});
   if (wall_parabola_.any()) {  // its excess is explicit
     momentum_.bound_explicit_viscosity(physics.mu_f, flow::WallParabola::theta_max);
     momentum_.hold_old_of_part();
@@ -130,7 +143,7 @@ void Solver::make_orthogonal() {
 
 void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   for (Index c = 0; c < mesh_.n_cells; ++c) state_.u[c] = u_0(mesh_.C[c]);
-  require_finite(state_.u);
+  require_finite(state_.u, mesh_);
   set_gradient(L_, u_b_, state_.t);
   if (projection_.orthogonal()) flow::face_means(L_f_, L_, weights_, mesh_);
   openings_.set_pressure(p_b_, state_.u);
@@ -146,23 +159,6 @@ void Solver::start(const std::function<Vec3(const Vec3&)>& u_0) {
   add_pressure_of_body_force();
   start_rate_ = acceleration_rate();
   hold_backup();
-}
-
-// p = p_0 + q, Lap q = 0, q = p_b - p_0 at the openings: what they press with passes through the
-// fluid at once. p_0, the largest of them, keeps the solver's tolerance to their differences.
-void Solver::set_pressure_of_rest() {
-  if (!projection_.open()) return;
-  const std::vector<char>& open = momentum_.boundary().open;
-  openings_.set_pressure(p_b_, state_.u);
-  Real p_0 = -std::numeric_limits<Real>::max();
-  for (Index b = 0; b < mesh_.n_boundary(); ++b)
-    if (open[b] != 0) p_0 = std::max(p_0, p_b_[b]);
-  p_0 = global_max(p_0);
-  for (Index b = 0; b < mesh_.n_boundary(); ++b) q_b_[b] = open[b] != 0 ? p_b_[b] - p_0 : 0;
-  FaceField<Real> flux(mesh_);
-  projection_.project(flux, q_, grad_q_, q_b_, 0);
-  for (Index c = 0; c < mesh_.n_cells; ++c) state_.p[c] = p_0 + q_[c];
-  q_b_.fill(0);
 }
 
 void Solver::step(Real dt) {

@@ -4,13 +4,11 @@
 #include <deque>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "libfsi/core/clock.hpp"
 #include "libfsi/core/profile.hpp"
 #include "libfsi/field/boundary.hpp"
 #include "libfsi/field/of_place_and_time.hpp"
@@ -26,6 +24,7 @@
 #include "libfsi/operators/gradient.hpp"
 #include "libfsi/solver/backup.hpp"
 #include "libfsi/solver/body.hpp"
+#include "libfsi/solver/calls.hpp"
 #include "libfsi/solver/side_gradients.hpp"
 #include "libfsi/solver/solid_step.hpp"
 #include "libfsi/solver/state.hpp"
@@ -33,22 +32,7 @@
 
 namespace fsi {
 
-/// What drives and how the flow is solved.
-struct FlowSetup {
-  Conditions conditions{};              ///< one a patch
-  Vec3 axis{1, 0, 0};                   ///< of the mean velocity
-  std::optional<Real> mean_velocity{};  ///< held exactly in a periodic channel
-  /// Velocity of the frame that conditions, places and results stand in. The equations are the same
-  /// in all; a run tells it, and goes on from checkpoints of the same frame alone.
-  Vec3 frame{};
-  int non_orthogonal_correctors = 1;  ///< solves for the pressure beyond the first
-  flow::Convection convection = flow::Convection::linear;  ///< face values of the velocity
-  /// The cells' own velocities are projected, too, which keeps their kinetic energy
-  /// (flow/orthogonal.hpp). For a fluid alone, and no pressure given.
-  bool orthogonal_projection = false;
-  /// Force per volume on fluid and solid at x and t; none where empty.
-  std::function<Vec3(const Vec3& x, Real t)> body_force{};
-};
+struct Rejection;
 
 /// Advances a State by the calls of doc/theory/step.md; the kinematics of the paper's scheme is
 /// left_cauchy_green. Holds what a step needs so that a step allocates nothing.
@@ -120,6 +104,8 @@ class Solver {
   /// Collective. The largest step that resolves the solid's elastic waves, or, where these are
   /// treated implicitly, that was found stable; the largest number without a solid.
   Real elastic_dt() const;
+  /// The same of one solid.
+  Real elastic_dt(const Body& body) const;
   /// Collective. Step in which the solid strains by that much at its last rate, where the
   /// kinematics watches it.
   Real strain_dt(Real strain) const;
@@ -136,14 +122,16 @@ class Solver {
   State& state() { return state_; }
   const State& state() const { return state_; }
   ///@}
-  /// The solids, in the order they were put in.
-  const std::deque<Body>& bodies() const { return bodies_; }
-  /// The same, to change each of them. The list itself grows by put_solid alone.
+  ///@{
+  /// The solids, in the order they were put in. The list itself grows by put_solid alone.
   std::deque<Body>& bodies() { return bodies_; }
+  const std::deque<Body>& bodies() const { return bodies_; }
+  ///@}
+  ///@{
   /// The first of them; none in a scene without.
-  const Body* body() const { return bodies_.empty() ? nullptr : &bodies_.front(); }
-  /// The same, to change.
   Body* body() { return bodies_.empty() ? nullptr : &bodies_.front(); }
+  const Body* body() const { return bodies_.empty() ? nullptr : &bodies_.front(); }
+  ///@}
   /// Largest sum of the solids' fractions in a cell of the last step, less 1; at least 0.
   Real overlap() const { return separation_ ? separation_->overlap() : 0; }
   /// Densities and viscosities.
@@ -199,8 +187,6 @@ class Solver {
   /// Collective. Errors: those of `require_length`; Error{numerics} where not `balanced` at its
   /// end.
   void require_step(Real dt);
-  /// Collective. Errors: Error{input} where the velocity to start from is not finite.
-  void require_finite(const CellField<Vec3>& u_0) const;
   /// Collective. Whether as much flows in as out at t; else says in the report why not.
   bool balanced(Real t);
   /// Whether some body's interface is at another time than the flow.
@@ -250,35 +236,10 @@ class Solver {
   void set_gradient(CellField<Tensor>& L, BoundaryField<Vec3>& u_b, Real t);
   /// Between two cells with a one-sided L beside the surface, L_f_ is the mean of both.
   void take_interface_gradient(const Body& body, const CellField<Tensor>& L);
-  /// What may end a step: the equation whose limit is passed, or what was thrown.
-  enum class Term {
-    none,
-    convection,
-    pressure,
-    transport,
-    fraction,
-    elasticity,
-    strain,
-    eigenvalue,
-    solve
-  };
-  struct Rejection {
-    std::string reason{};
-    Term term = Term::none;
-    const Body* body = nullptr;  ///< whose limit it is
-  };
   /// Against what a step of dt leaves behind; empty where there is nothing.
   Rejection rejection_reason(Real dt) const;
-  Rejection rejection_reason(const Body& body, Real dt) const;
   /// Where the state as it stands is worst in that respect: a sentence with figure, place and cell.
   std::string diagnosis(const Rejection& rejection, Real dt);
-  /// Empty where the body force is not what makes a step of dt too long.
-  std::string diagnosis_of_force(Term term, Real dt) const;
-  std::string diagnosis_of_solid(const Body& body, Term term, Real dt) const;
-  template <class Figure>
-  std::string at_worst(const Figure& figure, const char* what, const char* why) const;
-  /// What holds the steps as short as dt, where there were too many such in a row.
-  Rejection holder(Real dt) const;
   /// Counts steps so short that the run will not end; whether there were too many in a row.
   bool stuck(Real dt);
   /// What the bodies ask of a step, set as they are put in.
@@ -310,19 +271,9 @@ class Solver {
   Real explicit_courant() const {
     return modes_.implicit_convection ? courant_.explicit_part() : std::numeric_limits<Real>::max();
   }
-  Real elastic_dt(const Body& body) const;
   void make_orthogonal();
   void hold_backup();
   void keep_backup();
-  /// Numbers in profile_ of what a step calls.
-  struct Calls {
-    explicit Calls(Profile& profile);
-    int hold_shape, advance_interface, separate_bodies, advect_pressure_jump, set_pressure_gradient,
-        set_velocity_gradient, transport_memory, transport_elastic, mix_viscosity, mix_density,
-        add_elastic_force, add_semi_implicit, add_body_force, balance_weight, set_flux_excess,
-        predict_momentum, predict_flux, project, hold_mean_velocity, check;
-  };
-
   const Mesh& mesh_;
   Physics physics_;
   std::vector<Condition> conditions_;
@@ -368,11 +319,10 @@ class Solver {
   std::optional<Heavy> heavy_;
   /// What `balance_weight` works with.
   struct AtRest {
-    explicit AtRest(const Mesh& mesh)
-        : weight(mesh), flux(mesh), of_flow(mesh), source(mesh), oblique_rest(mesh), q_b(mesh) {}
-    CellField<Vec3> weight;
-    FaceField<Real> flux, of_flow, source, oblique_rest;
-    BoundaryField<Real> q_b;  // stays 0
+    const Mesh& mesh;
+    CellField<Vec3> weight{mesh};
+    FaceField<Real> flux{mesh}, of_flow{mesh}, source{mesh}, oblique_rest{mesh};
+    BoundaryField<Real> q_b{mesh};  // stays 0
   };
   std::optional<AtRest> at_rest_;  // for forces and weights; none in an orthogonal projection
   std::optional<vof::Separation> separation_;  // where there are several solids

@@ -67,11 +67,7 @@ void find_faces(const CellField<Real>& alpha, const Mesh& mesh, AdvectScratch& s
 /// Largest (dt / 2V) sum |phi| of the cells that the step changes.
 Real courant_number(const FaceField<Real>& phi, Real dt, const Mesh& mesh, const AdvectScratch& s) {
   Real largest = 0;
-  for (const Index c : s.cells) {
-    Real sum = 0;
-    for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
-    largest = std::max(largest, dt / (2 * mesh.V[c]) * sum);
-  }
+  for (const Index c : s.cells) largest = std::max(largest, dt * courant_rate(phi, mesh, c));
   return global_max(largest);
 }
 

@@ -8,6 +8,7 @@
 
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 
 namespace fsi::vof {
 namespace {
@@ -101,9 +102,7 @@ Real interface_dt(const CellField<Real>& alpha, const FaceField<Real>& phi, Real
   Real rate = 0;
   for (Index c = 0; c < mesh.n_owned; ++c) {
     if (alpha[c] <= part || alpha[c] >= 1 - part) continue;
-    Real sum = 0;
-    for (const Index f : mesh.cell_faces[c]) sum += std::abs(phi[f]);
-    rate = std::max(rate, sum / (2 * mesh.V[c]));
+    rate = std::max(rate, courant_rate(phi, mesh, c));
   }
   rate = global_max(rate);
   return rate > 0 ? courant / rate : std::numeric_limits<Real>::max();
