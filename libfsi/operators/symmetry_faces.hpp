@@ -33,8 +33,8 @@ inline SymTensor image(const SymTensor& T, const Vec3& n) {
 /// Images in up to three planes of symmetry at right angles, one after the other; in none: the
 /// value itself.
 struct Reflection {
-  std::array<Vec3, 3> normals{};
-  int count = 0;
+  std::array<Vec3, 3> normals{};  ///< unit normals of the planes
+  int count = 0;                  ///< of the planes
 };
 /// Image of a vector or tensor.
 template <class T>

@@ -120,7 +120,7 @@ TEST(Ranks, HoldOneStateOfAnOrthogonalProjection) {
   expect_one_state(
       {.n = {16, 16, 0}, .simplex = true, .steps = 20, .orthogonal = true, .energy = 0.0121770118});
   expect_one_state(
-      {.n = {6, 6, 6}, .simplex = true, .steps = 10, .orthogonal = true, .energy = 0.00533774});
+      {.n = {6, 6, 6}, .simplex = true, .steps = 10, .orthogonal = true, .energy = 0.00533567});
 }
 
 TEST(Ranks, HoldOneStateOfABall) {

@@ -67,7 +67,11 @@ struct Builder {
         }
     for (Index k = 0; k <= (dim == 3 ? n[2] : 0); ++k)
       for (Index j = 0; j <= n[1]; ++j)
-        for (Index i = 0; i <= n[0]; ++i) mesh.points.push_back(at(i, j, k));
+        for (Index i = 0; i <= n[0]; ++i) {
+          const auto joined = [&](int a, Index p) { return box.periodic[a] && p == n[a] ? 0 : p; };
+          mesh.points.push_back(at(i, j, k));
+          mesh.vertex.push_back(point({joined(0, i), joined(1, j), joined(2, k)}));
+        }
     mesh.dim = dim;
     mesh.n_owned = mesh.n_cells = static_cast<Index>(mesh.C.size());
     mesh.n_global = mesh.n_cells;
