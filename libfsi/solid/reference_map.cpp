@@ -22,12 +22,15 @@ Real shear_rate(const Tensor& L) {
   return std::sqrt(2 * (L.xx * L.xx + L.yy * L.yy + L.zz * L.zz) + xy * xy + xz * xz + yz * yz);
 }
 
-/// s of the owned cells: twice the largest tangent of the angle between d and S, at most 1.
+/// s of the owned cells: twice the largest tangent of the angle between d and S, at most 1; 0 where
+/// they differ by rounding.
 std::vector<Real> obliqueness(const FaceWeights& weights, const Mesh& mesh) {
+  constexpr Real rounding = 1e-8;
   std::vector<Real> s(static_cast<std::size_t>(mesh.n_owned), 0);
   for (Index c = 0; c < mesh.n_owned; ++c)
     for (const Index f : mesh.cell_faces[c])
-      if (f < mesh.n_internal) s[c] = std::clamp(2 * weights.tangent(f, mesh), s[c], Real{1});
+      if (f < mesh.n_internal && weights.tangent(f, mesh) > rounding)
+        s[c] = std::clamp(2 * weights.tangent(f, mesh), s[c], Real{1});
   return s;
 }
 
