@@ -12,8 +12,11 @@ namespace {
 
 using geometry::Mirror;
 
-constexpr Real alike = 1e-6;       // of the cosine of the angle between two normals
-constexpr Real negligible = 1e-6;  // height over a plane, in parts of a cell
+// What the digits of a mesh file leave.
+constexpr Real level = 1e-3;       // of the angle between planes
+constexpr Real negligible = 1e-4;  // height over a plane, in parts of a cell
+
+bool parallel(const Mirror& a, const Mirror& b) { return norm(cross(a.n, b.n)) < level; }
 
 bool holds(const Mirror& plane, const Vec3& x, Real size) {
   return std::abs(dot(plane.n, x - plane.x)) < negligible * size;
@@ -46,10 +49,24 @@ struct PlanesOfCells {
 
 /// Adds a plane that is not in the list. size: of a cell at it.
 void add_new(std::vector<Mirror>& planes, const Mirror& plane, Real size) {
-  const auto known = [&](const Mirror& m) {
-    return std::abs(dot(m.n, plane.n)) > 1 - alike && holds(m, plane.x, size);
-  };
+  const auto known = [&](const Mirror& m) { return parallel(m, plane) && holds(m, plane.x, size); };
   if (std::ranges::none_of(planes, known)) planes.push_back(plane);
+}
+
+/// The vertices of cell c on a plane. Those of its own face there count also if the face is warped.
+std::vector<Index> vertices_on(const Mirror& plane, const std::vector<char>& faces,
+                               const Mesh& mesh, Index c) {
+  const Real size = cell_size(mesh, c);
+  std::vector<Index> on;
+  for (const Index p : mesh.cell_points[c])
+    if (holds(plane, mesh.points[p], size)) on.push_back(mesh.vertex[p]);
+  for (const Index f : mesh.cell_faces[c]) {
+    if (f < mesh.n_internal || faces[f - mesh.n_internal] == 0) continue;
+    const Mirror own{mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])};
+    if (!parallel(plane, own) || !holds(plane, own.x, size)) continue;
+    for (const Index p : mesh.face_points[f]) on.push_back(mesh.vertex[p]);
+  }
+  return on;
 }
 
 /// The place of the reflection in these planes among the last ones of a list, to which it is added
@@ -79,9 +96,12 @@ std::unordered_map<Index, std::vector<Mirror>> planes_through_vertices(
   for (Index c = 0; c < mesh.n_cells; ++c)
     for (const Mirror& plane : planes.of_cell(c)) {
       if (plane.n == Vec3{}) continue;
-      for (const Index p : mesh.cell_points[c])
-        if (holds(plane, mesh.points[p], cell_size(mesh, c)))
-          add_new(through[mesh.vertex[p]], plane, cell_size(mesh, c));
+      for (const Index p : mesh.cell_points[c]) {
+        if (!holds(plane, mesh.points[p], cell_size(mesh, c))) continue;
+        std::vector<Mirror>& here = through[mesh.vertex[p]];
+        const auto known = [&](const Mirror& m) { return parallel(m, plane); };
+        if (std::ranges::none_of(here, known)) here.push_back(plane);
+      }
     }
   return through;
 }
@@ -89,7 +109,7 @@ std::unordered_map<Index, std::vector<Mirror>> planes_through_vertices(
 bool at_right_angles(const std::vector<Mirror>& planes) {
   for (std::size_t i = 0; i < planes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (std::abs(dot(planes[i].n, planes[j].n)) > alike) return false;
+      if (std::abs(dot(planes[i].n, planes[j].n)) > level) return false;
   return true;
 }
 
@@ -106,7 +126,8 @@ SymmetryFaces::SymmetryFaces(std::vector<char> faces, const Mesh& mesh) {
     for (const Index p : mesh.cell_points[c]) {
       const auto at = through.find(mesh.vertex[p]);
       if (at == through.end() || !at_right_angles(at->second)) continue;
-      for (const Mirror& plane : at->second) add_new(planes, plane, cell_size(mesh, c));
+      for (const Mirror& plane : at->second)  // through p also if found across a period
+        add_new(planes, {mesh.points[p], plane.n}, cell_size(mesh, c));
     }
     if (!planes.empty()) list_images_of(lists, c, planes, mesh);
     lists.begin.push_back(static_cast<Index>(lists.images.size()));
@@ -116,17 +137,18 @@ SymmetryFaces::SymmetryFaces(std::vector<char> faces, const Mesh& mesh) {
 
 void SymmetryFaces::list_images_of(Lists& lists, Index c, const std::vector<Mirror>& planes,
                                    const Mesh& mesh) {
+  std::vector<std::vector<Index>> on;  // vertices on each plane
+  for (const Mirror& plane : planes) on.push_back(vertices_on(plane, lists.is, mesh, c));
   for (unsigned set = 1; set < 1U << planes.size(); ++set) {
     std::vector<Mirror> of_set;
-    for (std::size_t i = 0; i < planes.size(); ++i)
-      if ((set >> i & 1U) != 0) of_set.push_back(planes[i]);
-    if (of_set.size() > 3 || !at_right_angles(of_set)) continue;
     std::vector<Index> common;  // corners of c on all of these planes
-    for (const Index p : mesh.cell_points[c])
-      if (std::ranges::all_of(of_set, [&](const Mirror& plane) {
-            return holds(plane, mesh.points[p], cell_size(mesh, c));
-          }))
-        common.push_back(mesh.vertex[p]);
+    for (const Index p : mesh.cell_points[c]) common.push_back(mesh.vertex[p]);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      of_set.push_back(planes[i]);
+      std::erase_if(common, [&](Index v) { return std::ranges::find(on[i], v) == on[i].end(); });
+    }
+    if (of_set.size() > 3 || !at_right_angles(of_set)) continue;
     const Index number = number_of(lists.reflections, of_set);
     const auto add = [&](Index k, Vec3 r) {
       const auto is_common = [&](Index p) {

@@ -1,5 +1,6 @@
 #include "libfsi/solid/flow_snapshot.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libfsi/operators/stencil.hpp"
@@ -36,10 +37,11 @@ void set_gradient_at_planes(CellField<SymGradient>& grad, const Value& value,
                             const Mesh& mesh, std::span<const Index> cells) {
   if (symmetry.empty()) return;
   constexpr Real no_inverse = 0.05;  // of the determinant of M, 1 on a good cell
+  const auto on_plane = [&](Index f) { return symmetry.has(f, mesh); };
   for (const Index c : cells) {
+    if (std::ranges::none_of(mesh.cell_faces[c], on_plane)) continue;
     Tensor M;
     SymGradient R;
-    bool at_plane = false;
     const auto add = [&](const SymTensor& rise, const Vec3& g0, const Vec3& d) {
       M += outer(g0, d);
       R += outer(rise, g0);
@@ -51,13 +53,12 @@ void set_gradient_at_planes(CellField<SymGradient>& grad, const Value& value,
       if (k >= 0) {
         const Real part = owner ? weights.lambda[f] : 1 - weights.lambda[f];
         add(value(k) - value(c), part * S, owner ? mesh.d[f] : -mesh.d[f]);
-      } else if (symmetry.has(f, mesh)) {
+      } else if (on_plane(f)) {
         add(image(value(c), S / norm(S)) - value(c), 0.5 * S, to_image(mesh, f));
-        at_plane = true;
       }
     }
     if (mesh.dim == 2) M.zz = 1;
-    if (at_plane && std::abs(det(M)) >= no_inverse) grad[c] = solved(M, R);
+    if (std::abs(det(M)) >= no_inverse) grad[c] = solved(M, R);
   }
 }
 

@@ -8,9 +8,9 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/alternation.hpp"
-#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/inward_normal.hpp"
 #include "libfsi/solid/koren.hpp"
+#include "libfsi/solid/simplex_zone.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
@@ -22,13 +22,19 @@ Real shear_rate(const Tensor& L) {
   return std::sqrt(2 * (L.xx * L.xx + L.yy * L.yy + L.zz * L.zz) + xy * xy + xz * xz + yz * yz);
 }
 
-/// s of the owned cells: twice the largest tangent of the angle between d and S, at most 1.
-std::vector<Real> obliqueness(const FaceWeights& weights, const Mesh& mesh) {
-  std::vector<Real> s(static_cast<std::size_t>(mesh.n_owned), 0);
-  for (Index c = 0; c < mesh.n_owned; ++c)
+/// Collective. The part of gamma that owned cells lose: s, twice the largest tangent of the angle
+/// between d and S, at most 1, and 0 where they differ by rounding; in the simplex zone `in_zone`.
+std::vector<Real> lost_part(const FaceWeights& weights, const Mesh& mesh, Real in_zone) {
+  constexpr Real rounding = 1e-8;
+  const SimplexZone zone(mesh);
+  std::vector<Real> part(static_cast<std::size_t>(mesh.n_owned), 0);
+  for (Index c = 0; c < mesh.n_owned; ++c) {
     for (const Index f : mesh.cell_faces[c])
-      if (f < mesh.n_internal) s[c] = std::clamp(2 * weights.tangent(f, mesh), s[c], Real{1});
-  return s;
+      if (f < mesh.n_internal && weights.tangent(f, mesh) > rounding)
+        part[c] = std::clamp(2 * weights.tangent(f, mesh), part[c], Real{1});
+    if (zone.has(c)) part[c] = in_zone;
+  }
+  return part;
 }
 
 /// Collective. Which patches of the mesh have such faces.
@@ -56,7 +62,7 @@ ReferenceMap::ReferenceMap(const Mesh& mesh, Role role, const std::vector<Patch>
       filled_(mesh),
       slope_(mesh) {
   const FaceWeights weights(mesh);
-  oblique_ = obliqueness(weights, mesh);
+  lost_part_ = lost_part(weights, mesh, beside_psi_ ? 1 : 0);
   const std::vector<bool> mirrors = patches_of(symmetry, mesh);
   GradientStencil stencil(mesh, weights, mirrors, mirrors);
   of_owner_ = std::move(stencil.owner);
@@ -229,13 +235,11 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
 }
 
 Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Real dt) const {
-  const bool in_zone = snapshot.one_sided != nullptr && snapshot.one_sided->zone().has(c);
-  const Real share = !in_zone ? oblique_[c] : beside_psi_ ? 1 : 0;
-  if (share == 0) return {};
+  if (lost_part_[c] == 0) return {};
   const auto known = [&](Index k) { return filled_[k] >= alpha_known; };
   const auto rise = [&](Index k, const Vec3& r) { return dot(slope_[k], r); };
   const Real h = cell_size(mesh_, c);
-  return share * alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
+  return lost_part_[c] * alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
          alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 

@@ -151,7 +151,7 @@ class ReferenceMap {
   bool beside_psi_;
   CellField<Real> at_wall_;                    ///< 1 in cells with a face on a wall; owned and halo
   std::vector<Vec3> of_owner_, of_neighbour_;  ///< weights of the faces in the gradient of a cell
-  std::vector<Real> oblique_;                  // [n_owned] s
+  std::vector<Real> lost_part_;                // [n_owned] part of gamma lost by alternation
   Band known_;
   MapExtension extension_;
   CellField<Real> filled_;                    // alpha where xihat is set

@@ -70,6 +70,12 @@ std::string numbered(std::size_t call, const char* name, const std::string& what
   return head.data() + (what.empty() ? "nothing" : what);
 }
 
+/// Whether the stress of a solid damps the flux.
+bool stress_damps(const std::deque<Body>& bodies) {
+  return std::ranges::any_of(bodies,
+                             [](const Body& body) { return body.semi_implicit() && body.G > 0; });
+}
+
 /// The implicit part of the momentum equation, from that of the bodies.
 std::string with_convection(const std::string& of_bodies, bool convection) {
   if (!convection) return of_bodies;
@@ -109,8 +115,8 @@ std::vector<std::string> Solver::describe_step() const {
       {"balance_weight", where(at_rest_.has_value(), "first step: p balances forces and weight")},
       {"set_flux_excess", where(!projection_.orthogonal(), "flux less the mean of u")},
       {"predict_momentum", "u*, convection " + flow::name_of(momentum_.scheme())},
-      {"predict_flux",
-       std::string("phi* of u*") + (modes_.stiff ? ", damped by the term in lambda_B" : "")},
+      {"predict_flux", std::string("phi* of u*") +
+                           (stress_damps(bodies_) ? ", damped by the term in lambda_B" : "")},
       {"project", projection_.orthogonal() ? "u orthogonally, then phi; p"
                   : loaded                 ? "p, u and phi, with the answers of the openings"
                                            : "p, u and phi"},

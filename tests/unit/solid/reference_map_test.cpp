@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -129,6 +130,37 @@ TEST(ReferenceMap, IsSetByItsMapAlone) {
 }
 
 // What changes the volume is told, and leaves det B = 1.
+// Of the map kinematics, at rest.
+TEST(ReferenceMap, LosesWhatAlternatesOnObliqueQuadsAlone) {
+  const auto lost = [](bool simplex, Real slant) {
+    test::BoxFile box = plane(8, simplex, false);
+    box.moved = [=](const Vec3& x) { return Vec3{x.x + slant * x.y, x.y, 0}; };
+    Full run(box);
+    solid::ReferenceMap& map = run.kinematics;
+    for (Index c = 0; c < run.mesh.n_cells; ++c)
+      map.d[c].y = (run.mesh.global_id[c] % 2 == 0 ? 1 : -1) * 1e-4;
+    map.resume(run.alpha, run.grad);
+    CellField<Vec3> before(run.mesh);
+    before.assign(map.d);
+    map.transport(run.alpha,
+                  {.phi = run.phi,
+                   .u = run.u,
+                   .L = run.L,
+                   .stencil = run.stencil,
+                   .weights = run.weights,
+                   .wave_speed = 1,
+                   .recovery = 1},
+                  0.01, run.grad);
+    Real most = 0;
+    for (Index c = 0; c < run.mesh.n_owned; ++c) most = std::max(most, norm(map.d[c] - before[c]));
+    return global_max(most);
+  };
+  EXPECT_EQ(lost(false, 0), 0);
+  EXPECT_GT(lost(false, 0.5), 1e-8);
+  EXPECT_EQ(lost(true, 0), 0);
+  EXPECT_EQ(lost(true, 0.5), 0);
+}
+
 TEST(ReferenceMap, VolumeIsNormalised) {
   Full run({.n = {4, 4, 4}});
   run.set_map([](const Vec3& x) { return 1.1 * x; });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libfsi/solver/solver.hpp"
+#include "tests/unit/support/box_file.hpp"
 #include "tests/unit/support/box_mesh.hpp"
 
 namespace fsi {
@@ -70,6 +71,18 @@ TEST(DescriptionAtWalls, TheParabolaOfFlatWallsIsToldWithASolidAlone) {
   one.put_solid(
       {.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1, .mu = 0.01});
   EXPECT_NE(one.describe_step()[8].find("parabola of walls"), std::string::npos);
+}
+
+// Triangles alone make a part of convection implicit.
+TEST(DescriptionOnTriangles, TheFluxIsDampedWithASolidAlone) {
+  const Mesh mesh = test::read_box({.n = {16, 16, 0}, .simplex = true});
+  Conditions conditions;
+  for (const Patch& patch : mesh.patches) conditions[patch.name] = Wall{};
+  Solver one(mesh, {.mu_f = 0.01}, {.conditions = conditions});
+  EXPECT_EQ(one.describe_step()[16].find("lambda_B"), std::string::npos);
+  one.put_solid(
+      {.shape = shapes::translate(shapes::sphere(0.2), {0.5, 0.5, 0}), .G = 1, .mu = 0.01});
+  EXPECT_NE(one.describe_step()[16].find("lambda_B"), std::string::npos);
 }
 
 TEST_F(Description, SeveralSolidsAreToldApartByName) {
