@@ -15,8 +15,8 @@ struct BondPlanes {
   /// Collective. bonded: boundary faces; rings: of vertex neighbours around their cells.
   BondPlanes(const Mesh& mesh, std::span<const Index> bonded, int rings);
 
-  CellField<Vec3> n;
-  CellField<Real> s;
+  CellField<Vec3> n;  ///< unit normal, out of the mesh
+  CellField<Real> s;  ///< n . x in the plane
 };
 
 /// The map of the memory or of the map kinematics, xi = x + xihat, and the undeformed solid.
