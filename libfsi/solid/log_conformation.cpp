@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfsi/solid/alternation.hpp"
 #include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/koren.hpp"
 #include "libfsi/solid/log_tensor.hpp"
@@ -126,8 +127,8 @@ void LogConformation::recall(const FlowSnapshot& snapshot, Real dt) {
   constexpr Real by_flow = 0.2;
   constexpr Real by_wave = 0.05;  // waves along the surface grow at a rate of up to 0.01 c_s / h
   // In the zone of triangles the memory's B is rougher, since its fits take twelve neighbours, and
-  // the filter damps the waves. On tetrahedra they take some sixty, and waves grow faster.
-  const Real by_wave_in_zone = mesh_.dim == 3 ? 0.1 : 0.02;
+  // the filter damps the waves.
+  const Real by_wave_in_zone = recall_in_zone(mesh_.dim);
   const Real by_flow_in_zone = mesh_.dim == 3 ? by_flow : 0.05;
   const ReferenceMap& memory = *snapshot.memory;
   for (const Index c : known_.core()) {

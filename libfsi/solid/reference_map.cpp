@@ -239,7 +239,9 @@ Vec3 ReferenceMap::without_alternation(Index c, const FlowSnapshot& snapshot, Re
   const auto known = [&](Index k) { return filled_[k] >= alpha_known; };
   const auto rise = [&](Index k, const Vec3& r) { return dot(slope_[k], r); };
   const Real h = cell_size(mesh_, c);
-  return lost_part_[c] * alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt) *
+  const bool in_zone = snapshot.one_sided != nullptr && snapshot.one_sided->zone().has(c);
+  const Real least = in_zone ? recall_in_zone(mesh_.dim) : 0;
+  return lost_part_[c] * alternating_part(snapshot.wave_speed, snapshot.recovery, h, dt, least) *
          alternation(d, known, rise, mesh_, extension_.symmetry(), c);
 }
 

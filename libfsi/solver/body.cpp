@@ -81,6 +81,7 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
     if (passed[f - mesh.n_internal] != 0) at_openings.push_back(mesh.owner[f]);
   const std::vector<char> at_walls = bonded(patches.walls), at_still = bonded(patches.still);
   set_bond(at_walls, at_still);
+  set_bond_planes(patches.tight);
   if (solid.trim && filled.clearance < 0) trim_shape(patches.mirrors);
   if (solid.kinematics == KinematicsKind::log_conformation && !patches.walls.empty())
     film.emplace(mesh, patches.walls, at_walls);
@@ -137,6 +138,16 @@ std::vector<char> Body::bonded(const std::vector<Patch>& patches) const {
       is[f - mesh.n_internal] = alpha[mesh.owner[f]] >= solid::alpha_known &&
                                 vof::touches(f, alpha, interface, mesh) && at_face(f);
   return is;
+}
+
+void Body::set_bond_planes(const std::vector<Patch>& tight) {
+  if (!held || bonded_faces + sliding_faces == 0) return;
+  const std::vector<char> at_tight = bonded(tight);
+  std::vector<Index> faces;
+  for (Index b = 0; b < mesh.n_boundary(); ++b)
+    if (at_tight[b] != 0 && mesh.owner[mesh.n_internal + b] < mesh.n_owned)
+      faces.push_back(mesh.n_internal + b);
+  bond_planes.emplace(mesh, faces, solid::Rings::count);
 }
 
 void Body::set_bond(const std::vector<char>& at_walls, const std::vector<char>& at_still) {
@@ -239,8 +250,12 @@ void Body::hold_shape() {
   trust.clear();
   for (const Index c : m.cells())
     trust.push_back(pieces.several() && left_out[c] > 0 ? 0 : m.trust(c));
-  const vof::ShapeMap shape_map{
-      .shape = shape, .d = m.d, .gradient = m.slope(), .cells = m.cells(), .weight = trust};
+  const vof::ShapeMap shape_map{.shape = shape,
+                                .d = m.d,
+                                .gradient = m.slope(),
+                                .cells = m.cells(),
+                                .weight = trust,
+                                .bond = bond_planes ? &*bond_planes : nullptr};
   // It would do so where an opening or the mesh has cut the solid, too.
   if (volume_out > rounding_out * filled.volume || cut_by_mesh) {
     vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count, at_openings);

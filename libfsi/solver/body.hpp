@@ -56,6 +56,7 @@ struct SolidPatches {
   std::vector<Patch> mirrors{};   ///< planes of symmetry, which may cut it
   std::vector<Patch> walls{};     ///< whose velocity is given, inlets too
   std::vector<Patch> still{};     ///< those of `walls` that never move
+  std::vector<Patch> tight{};     ///< those of `walls` that nothing passes, at rest or sliding
   std::vector<Patch> openings{};  ///< which fluid and solid may pass
 };
 
@@ -75,6 +76,8 @@ struct Body {
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight need.
   void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
+  /// Collective. Finds the planes of the tight patches at which the solid is bonded.
+  void set_bond_planes(const std::vector<Patch>& tight);
   /// Collective. Takes from `shape` what the mesh cut off, if planes did so; else sets
   /// `cut_by_mesh`.
   void trim_shape(const std::vector<Patch>& mirrors);
@@ -215,6 +218,7 @@ struct Body {
   shapes::Shape shape;                           ///< undeformed
   bool held = false;                             ///< whether alpha is held to the shape of the map
   vof::HoldScratch hold_scratch;                 ///< scratch
+  std::optional<vof::BondPlanes> bond_planes;    ///< of a solid that is held and bonded
   Pieces pieces;                                 ///< at the last hold_shape
   std::vector<Index> at_openings;                ///< owned cells
   bool cut_by_mesh = false;  ///< whether `shape` tells of a part that the mesh cut off

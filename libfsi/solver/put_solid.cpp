@@ -128,8 +128,10 @@ SolidPatches patches_of_solids(const std::vector<Condition>& conditions, const M
     const Patch& patch = mesh.patches[i];
     if (lets_slip(here)) patches.mirrors.push_back(patch);
     if (fixes_velocity(here)) patches.walls.push_back(patch);
-    if (const auto* wall = std::get_if<Wall>(&here); wall && wall->velocity == Vec3{})
-      patches.still.push_back(patch);
+    if (const auto* wall = std::get_if<Wall>(&here)) {
+      patches.tight.push_back(patch);
+      if (wall->velocity == Vec3{}) patches.still.push_back(patch);
+    }
     if (fixes_pressure(here) || prescribes_flow(here)) patches.openings.push_back(patch);
   }
   return patches;

@@ -13,6 +13,11 @@
 namespace fsi::vof {
 namespace {
 
+/// Distance of a point from the plane that cell c knows.
+Real off_plane(const BondPlanes& bond, Index c, const Vec3& x) {
+  return std::abs(dot(bond.n[c], x) - bond.s[c]);
+}
+
 /// Value, gradient and Laplacian of a shape's distance, by differences over the length e.
 struct Distance {
   Real value;
@@ -49,6 +54,15 @@ Real nearest_image(Vec3& xi, Vec3& laps, const shapes::Shape& shape, const Mesh&
   return least;
 }
 
+/// Whether xi - l grad l / |grad l|^2, the point of the undeformed surface next to xi, lies at a
+/// bonded wall near c.
+bool is_bond(const ShapeMap& map, Index c, const Vec3& xi, const Distance& at, Real h) {
+  constexpr Real touching = 0.1;  // of a cell
+  if (map.bond == nullptr || norm2(map.bond->n[c]) == 0) return false;
+  const Vec3 foot = xi - (at.value / norm2(at.gradient)) * at.gradient;
+  return off_plane(*map.bond, c, foot) < touching * h;
+}
+
 void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& mesh,
                  HoldScratch& s) {
   s.cells.clear(), s.planes.clear(), s.weight.clear();
@@ -65,7 +79,7 @@ void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& 
     const Distance at = distance(map.shape, xi, value, 1e-3 * h, mesh.dim);
     const Vec3 g = at.gradient + dot(transpose(map.gradient[c]), at.gradient);
     const Real slope = norm(g), k = std::clamp(at.laplacian, -1 / h, 1 / h);
-    if (!(slope > 0)) continue;
+    if (!(slope > 0) || is_bond(map, c, xi, at, h)) continue;
     s.cells.push_back(c), s.weight.push_back(map.weight[i]);
     s.planes.push_back({g / slope, -(at.value + k * h * h / 24) / slope});
   }
@@ -122,6 +136,29 @@ Real set_change_of_no_volume(const CellField<Real>& alpha, Real volume, const Me
 }
 
 }  // namespace
+
+// Ring by ring, so that the result does not depend on the order of the cells.
+BondPlanes::BondPlanes(const Mesh& mesh, std::span<const Index> bonded, int rings)
+    : n(mesh), s(mesh) {
+  CellField<Real> ring(mesh);  // 1 + that of the cell; 0: none
+  const auto take = [&](Index c, const Vec3& n_new, Real s_new) {
+    const bool nearer = std::abs(dot(n_new, mesh.C[c]) - s_new) < off_plane(*this, c, mesh.C[c]);
+    if (ring[c] == 0 || nearer) n[c] = n_new, s[c] = s_new;
+  };
+  for (const Index f : bonded) {
+    const Vec3 out = mesh.Sf[f] / norm(mesh.Sf[f]);
+    take(mesh.owner[f], out, dot(out, mesh.Cf[f]));
+    ring[mesh.owner[f]] = 1;
+  }
+  for (int k = 1; k <= rings; ++k) {
+    mesh.halo.update(n), mesh.halo.update(s), mesh.halo.update(ring);
+    for (Index c = 0; c < mesh.n_owned; ++c) {
+      if (ring[c] > 0 && ring[c] <= k) continue;
+      for (const Index b : mesh.cell_neighbours[c])
+        if (ring[b] > 0 && ring[b] <= k) take(c, n[b], s[b]), ring[c] = k + 1;
+    }
+  }
+}
 
 void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMap& map,
               const Mesh& mesh, int rings, std::span<const Index> at_openings) {

@@ -10,6 +10,15 @@
 
 namespace fsi::vof {
 
+/// In the cells near bonded faces of walls the plane n . x = s of the nearest one; elsewhere n = 0.
+struct BondPlanes {
+  /// Collective. bonded: boundary faces; rings: of vertex neighbours around their cells.
+  BondPlanes(const Mesh& mesh, std::span<const Index> bonded, int rings);
+
+  CellField<Vec3> n;  ///< unit normal, out of the mesh
+  CellField<Real> s;  ///< n . x in the plane
+};
+
 /// The map of the memory or of the map kinematics, xi = x + xihat, and the undeformed solid.
 struct ShapeMap {
   const shapes::Shape& shape;         ///< the undeformed solid, its signed distance
@@ -17,6 +26,7 @@ struct ShapeMap {
   const CellField<Tensor>& gradient;  ///< of xihat
   std::span<const Index> cells;       ///< owned, where xihat is set
   std::span<const Real> weight;       ///< [cells] the trust vartheta in the map, 0 to 1
+  const BondPlanes* bond = nullptr;   ///< of the walls to which the solid is bonded
 };
 
 /// Scratch of `hold_shape`; grows with the interface.
@@ -48,10 +58,11 @@ void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMa
 ///   g = (grad xi)^T . grad shape(xi_c),   grad xi = I + grad xihat.
 ///
 /// k_s = div grad shape is the sum of the curvatures, and k_s h^2 / 24 is what they add to the mean
-/// of shape over the cell. In a call alpha changes by at most 0.05 times the weight. The one number
-/// shift keeps the sum of alpha V to rounding. If no shift does so to 1e-5 of it, nothing is
-/// changed. alpha: owned and halo, before and after. Returns the volume that moved, in parts of the
-/// solid's; 0 if nothing was changed.
+/// of shape over the cell. A surface at a bonded wall has no fluid beyond it, so the cells whose
+/// nearest point of shape(X) = 0 lies in a plane of map.bond stay as they are. In a call alpha
+/// changes by at most 0.05 times the weight. The one number shift keeps the sum of alpha V to
+/// rounding. If no shift does so to 1e-5 of it, nothing is changed. alpha: owned and halo, before
+/// and after. Returns the volume that moved, in parts of the solid's; 0 if nothing was changed.
 Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                 HoldScratch& scratch);
 

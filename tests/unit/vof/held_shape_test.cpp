@@ -152,6 +152,32 @@ TEST(HeldShape, DoesNotDependOnTheImageOfTheLastCell) {
   }
 }
 
+// A layer that is bonded to the floor, with a map that is wrong there: no fluid gets to the wall.
+TEST(HeldShape, HasNoSurfaceAtABondedWall) {
+  for (const bool bonded : {false, true}) {
+    Mapped map(box(8, 2, true), {0, -0.02, 0});
+    const auto layer = shapes::translate(shapes::box({9, 0.5, 9}), {0.5, 0.25, 0});
+    CellField<Real> alpha(map.mesh);
+    vof::fill(alpha, map.mesh, layer);
+    std::vector<Index> floor;
+    for (Index f = map.mesh.n_internal; f < map.mesh.n_faces; ++f)
+      if (map.mesh.owner[f] < map.mesh.n_owned && map.mesh.Cf[f].y < 1e-9) floor.push_back(f);
+    const vof::BondPlanes bond(map.mesh, floor, 3);
+    vof::hold_shape(alpha,
+                    {.shape = layer,
+                     .d = map.d,
+                     .gradient = map.gradient,
+                     .cells = map.cells,
+                     .weight = map.weight,
+                     .bond = bonded ? &bond : nullptr},
+                    map.mesh, map.scratch);
+    Real least = 1;
+    for (Index c = 0; c < map.mesh.n_owned; ++c)
+      if (map.mesh.C[c].y < 0.25) least = std::min(least, alpha[c]);
+    EXPECT_EQ(global_min(least) > 1 - 1e-12, bonded);
+  }
+}
+
 // Where the map is not to be relied on nothing moves.
 TEST(HeldShape, LeavesAloneWhereTheMapTellsNothing) {
   Mapped map(box(16, 2, false), {});
