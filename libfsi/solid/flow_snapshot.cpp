@@ -30,14 +30,19 @@ SymGradient solved(const Tensor& M, const SymGradient& R) {
 }
 
 /// Sets grad anew in cells at planes of symmetry: the quasi-Green gradient (GradientStencil) with
-/// the image beyond the plane as a neighbour. A cell with too few neighbours keeps its grad.
+/// the image beyond the plane as a neighbour, and without it on the stencil's other planes. The
+/// stencil itself takes the values there as the cell's own, as is right for a pressure. A cell with
+/// too few neighbours keeps its grad.
 template <class Value>
 void set_gradient_at_planes(CellField<SymGradient>& grad, const Value& value,
-                            const FaceWeights& weights, const SymmetryFaces& symmetry,
+                            const GradientStencil& stencil, const SymmetryFaces& symmetry,
                             const Mesh& mesh, std::span<const Index> cells) {
-  if (symmetry.empty()) return;
   constexpr Real no_inverse = 0.05;  // of the determinant of M, 1 on a good cell
-  const auto on_plane = [&](Index f) { return symmetry.has(f, mesh); };
+  const std::vector<Real>& lambda = stencil.weights.lambda;
+  const auto on_plane = [&](Index f) {
+    return f >= mesh.n_internal &&
+           (stencil.mirror[f - mesh.n_internal] != 0 || symmetry.has(f, mesh));
+  };
   for (const Index c : cells) {
     if (std::ranges::none_of(mesh.cell_faces[c], on_plane)) continue;
     Tensor M;
@@ -51,9 +56,9 @@ void set_gradient_at_planes(CellField<SymGradient>& grad, const Value& value,
       const bool owner = mesh.owner[f] == c;
       const Vec3 S = (outward(mesh, f, c) / mesh.V[c]) * mesh.Sf[f];
       if (k >= 0) {
-        const Real part = owner ? weights.lambda[f] : 1 - weights.lambda[f];
+        const Real part = owner ? lambda[f] : 1 - lambda[f];
         add(value(k) - value(c), part * S, owner ? mesh.d[f] : -mesh.d[f]);
-      } else if (on_plane(f)) {
+      } else if (symmetry.has(f, mesh)) {
         add(image(value(c), S / norm(S)) - value(c), 0.5 * S, to_image(mesh, f));
       }
     }
@@ -69,7 +74,7 @@ void gradient(CellField<SymGradient>& grad, const CellField<SymTensor>& T,
               std::span<const Index> cells) {
   const auto value = [&](Index c) { return T[c]; };
   gradient_of(grad, value, stencil, mesh, cells);
-  set_gradient_at_planes(grad, value, stencil.weights, symmetry, mesh, cells);
+  set_gradient_at_planes(grad, value, stencil, symmetry, mesh, cells);
 }
 
 void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
@@ -77,7 +82,7 @@ void gradient(CellField<SymGradient>& grad, const CellField<Real>& alpha,
               const SymmetryFaces& symmetry, const Mesh& mesh, std::span<const Index> cells) {
   const auto value = [&](Index c) { return alpha[c] * T[c]; };
   gradient_of(grad, value, stencil, mesh, cells);
-  set_gradient_at_planes(grad, value, stencil.weights, symmetry, mesh, cells);
+  set_gradient_at_planes(grad, value, stencil, symmetry, mesh, cells);
 }
 
 }  // namespace fsi::solid

@@ -71,6 +71,31 @@ std::array<Real, 3> after_steps(const test::BoxFile& box, Real plane, const char
   return total;
 }
 
+// A solid that reaches a plane of symmetry later has no images there. A pressure has, and the
+// gradient of T must not take them over: it was half as large along the normal.
+TEST(Gradient, OfALinearStressIsExactAtAPlaneWithoutImages) {
+  for (const bool simplex : {false, true}) {
+    const Mesh mesh = test::read_box({.n = {6, 6, 6}, .simplex = simplex});
+    const FaceWeights weights(mesh);
+    std::vector<bool> mirrors;
+    for (const Patch& patch : mesh.patches) mirrors.push_back(patch.name == "back");
+    const GradientStencil of_p(mesh, weights, std::vector<bool>(mesh.patches.size(), false),
+                               mirrors);
+    CellField<SymTensor> T(mesh);
+    CellField<solid::SymGradient> grad(mesh);
+    for (Index c = 0; c < mesh.n_cells; ++c) T[c] = {0, mesh.C[c].z, 2 * mesh.C[c].z, 0, 0, 0};
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_owned; ++c)
+      if (std::hypot(mesh.C[c].x - 0.5, mesh.C[c].y - 0.5) < 0.3 && mesh.C[c].z < 0.5)
+        cells.push_back(c);
+    solid::gradient(grad, T, of_p, {}, mesh, cells);
+    for (const Index c : cells) {
+      EXPECT_NEAR(grad[c].z.xy, 1, 1e-12);
+      EXPECT_NEAR(grad[c].z.xz, 2, 1e-12);
+    }
+  }
+}
+
 // Taken in by the cells of one side alone, a gradient at the plane lets a stiff ball tremble.
 TEST(ReferenceMap, AtAPlaneOfSymmetryIsThatOfTheWholeSolid) {
   const auto whole = after_steps({.n = {12, 12, 12}}, 0.5, "");
