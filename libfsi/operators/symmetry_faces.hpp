@@ -44,6 +44,11 @@ T image(const T& value, const Reflection& reflection) {
   return of;
 }
 
+/// The neighbour at internal face f; at the boundary the owner itself, whose image is there.
+inline Index second_cell(const Mesh& mesh, Index f) {
+  return f < mesh.n_internal ? mesh.neighbour[f] : mesh.owner[f];
+}
+
 /// From the centre of the cell at boundary face f to that of its image in the plane of the face.
 inline Vec3 to_image(const Mesh& mesh, Index f) {
   const Vec3& S = mesh.Sf[f];

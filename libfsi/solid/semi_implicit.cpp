@@ -20,11 +20,6 @@ Real part_along(const Vec3& m, const Vec3& d) {
   return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
 }
 
-/// The cell beyond face f; at the boundary the cell itself, whose image is there.
-Index second_cell(const Mesh& mesh, Index f) {
-  return f < mesh.n_internal ? mesh.neighbour[f] : mesh.owner[f];
-}
-
 /// Weight of L_N in the mean of L over the line between the cells of face f. The trapezoidal rule
 /// u_N - u_P = (L_P + L_N) / 2 . d is of third order. Across the kink at the surface the part
 /// alpha_f of the line is the solid's.

@@ -49,23 +49,19 @@ void SurfaceTraction::clear(const Band& band) {
   jump_force_.clear();
   const auto reset = [&](Index c) { kink_[c] = {}, touch_[c] = has_own_[c] = fitted_[c] = 0; };
   for (const Index c : last_cells_) reset(c), own_[c] = {};
-  for (const Index f : last_faces_) reset(mesh_.owner[f]), reset(second_cell(f));
+  for (const Index f : last_faces_) reset(mesh_.owner[f]), reset(second_cell(mesh_, f));
   last_cells_ = band.cells();
   last_faces_ = band.faces();
 }
 
-Index SurfaceTraction::second_cell(Index f) const {
-  return f < mesh_.n_internal ? mesh_.neighbour[f] : mesh_.owner[f];
-}
-
 bool SurfaceTraction::simplex(Index f) const {
-  return mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(second_cell(f));
+  return mesh_.simplex(mesh_.owner[f]) || mesh_.simplex(second_cell(mesh_, f));
 }
 
 bool SurfaceTraction::separates(const CutFaces& cut, Index f) const {
   const bool internal = f < mesh_.n_internal;
   if ((!internal && !symmetry_.has(f, mesh_)) || norm2(cut.normal[f]) == 0) return false;
-  const Real a = cut.alpha[mesh_.owner[f]], b = cut.alpha[second_cell(f)];
+  const Real a = cut.alpha[mesh_.owner[f]], b = cut.alpha[second_cell(mesh_, f)];
   return is_cut(a) || is_cut(b) || std::abs(a - b) > 0.5;
 }
 
@@ -104,7 +100,7 @@ bool SurfaceTraction::at_surface(const Surface& surface, Index f) const {
 void SurfaceTraction::mark(const Surface& surface, const Band& band) {
   for (const Index f : band.faces()) {
     if (!at_surface(surface, f)) continue;
-    for (const Index c : {mesh_.owner[f], second_cell(f)})
+    for (const Index c : {mesh_.owner[f], second_cell(mesh_, f)})
       if (c < mesh_.n_owned) touch_[c] = uncut(surface.alpha[c]) ? 2 : 1;
   }
   mesh_.halo.update(touch_);
@@ -264,7 +260,7 @@ void SurfaceTraction::add_excess(CellField<Vec3>& force, FaceField<Real>& rhie_c
   const CellField<Real>& alpha = surface.alpha;
   for (const Index f : band.faces()) {
     if (!at_surface(surface, f)) continue;
-    const Index P = mesh_.owner[f], N = second_cell(f);
+    const Index P = mesh_.owner[f], N = second_cell(mesh_, f);
     if (fitted_[P] + fitted_[N] == 0) continue;
     const bool internal = f < mesh_.n_internal;
     const FaceExcess at_face = excess_at(f, surface);
@@ -305,7 +301,7 @@ void SurfaceTraction::add_transposed(CellField<Vec3>& force, const Surface& surf
     for (const Index f : mesh_.cell_faces[c]) {
       const Index P = mesh_.owner[f];
       const Real out = P == c ? 1 : -1;
-      if (at_surface(surface, f) && fitted_[P] + fitted_[second_cell(f)] > 0) continue;
+      if (at_surface(surface, f) && fitted_[P] + fitted_[second_cell(mesh_, f)] > 0) continue;
       Tensor L_f = more_viscous ? L_of(c) : none;
       if (more_viscous && f < mesh_.n_internal)
         L_f = (1 - weights_.lambda[f]) * L_of(P) + weights_.lambda[f] * L_of(mesh_.neighbour[f]);
@@ -335,7 +331,7 @@ void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<
                                         const FaceField<Real>& alpha_f, const Band& band) const {
   const bool in = mu_.solid > mu_.fluid;
   for (const Index f : band.faces()) {
-    if (touch_[mesh_.owner[f]] + touch_[second_cell(f)] == 0) continue;
+    if (touch_[mesh_.owner[f]] + touch_[second_cell(mesh_, f)] == 0) continue;
     if (in) {
       if (simplex(f) && (f < mesh_.n_internal || symmetry_.has(f, mesh_)))
         stiff[f] += implicit_share * (mu_.solid - mu_.fluid);

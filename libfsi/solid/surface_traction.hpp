@@ -134,9 +134,6 @@ class SurfaceTraction {
   static constexpr Real explicit_ratio_max = 20;
 
   void clear(const Band& band);
-  /// The neighbour at internal face f. At a plane of symmetry the owner itself, whose image is the
-  /// neighbour.
-  Index second_cell(Index f) const;
   /// Whether a cell of face f is a triangle or a tetrahedron.
   bool simplex(Index f) const;
   /// Half the sum of the owner's value and its image beyond the plane of symmetry at face f.
