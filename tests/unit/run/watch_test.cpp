@@ -133,6 +133,29 @@ TEST(Watch, FilmsThatTheMeshDoesNotResolveAreToldOnce) {
   }
 }
 
+TEST(Watch, AFilmBetweenTwoFullCellsOfTwoSolidsIsThin) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"left", "right"}});
+  // The films, of 0.2 and 1.8 cells, have a face of the mesh in their middle.
+  for (const Real half : {0.005, 0.045}) {
+    Solver two{
+        mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}}};
+    two.start([](const Vec3&) { return Vec3{}; });
+    for (const Real side : {-1.0, 1.0})
+      two.put_solid(
+          {.shape = shapes::translate(shapes::sphere(0.2), {0.5 + side * (0.2 + half), 0.475, 0}),
+           .G = 1,
+           .mu = 0.1,
+           .name = side < 0 ? "a" : "b"});
+    Watch watch(2);
+    testing::internal::CaptureStderr();
+    watch.strain(0, two, {}, EnergyBalance(two));
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(text.find("film between solid a and solid b") != std::string::npos,
+              rank() == 0 && half < 0.01)
+        << text;
+  }
+}
+
 TEST(Watch, APartThatComesBackFromAnOpeningIsToldOnce) {
   const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"bottom", "top"}});
   Solver solver{mesh,
