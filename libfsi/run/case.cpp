@@ -350,6 +350,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
       std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
                   p.mu_f * velocity / (s.solid.G * length),
                   s.solid.G / (p.rho * velocity * velocity));
+    if (!s.by_default.empty()) std::printf("; not given, the defaults: %s", s.by_default.c_str());
     std::printf("\n");
     tell_of_section(name, s.shape_name, mesh.dim, thickness / edges[i]);
   }

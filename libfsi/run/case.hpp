@@ -43,6 +43,7 @@ struct SolidSetup {
   Vec3 centre{};               ///< its z is not used in a 2-D run
   bool on_path = false;        ///< whether its place still has to be found, on the mesh
   std::string options;         ///< prefix of its options: "solid_" or "solids_NAME_"
+  std::string by_default{};    ///< its shear modulus and sizes that were not given
 };
 
 /// A case as the user described it.

@@ -9,6 +9,7 @@
 #include "libfsi/core/error.hpp"
 #include "libfsi/core/option_names.hpp"
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/case.hpp"
 #include "libfsi/run/continuation.hpp"
 #include "libfsi/solid/law/laws.hpp"
@@ -238,7 +239,16 @@ void add_solid(std::vector<SolidSetup>& solids, Options& options, const std::str
   solid.solid.trim = read.flag(of + "trim", false,
                                "the part of the shape beyond the mesh is cut off, not refused");
   solid.about_origin = undeformed(read, of, solid.shape_name, solid.thickness);
-  solid.solid.by_default = sizes_by_default(read, of, solid.shape_name);
+  require(none || options.help() || solid.solid.film_thickness <= solid.thickness,
+          "option -" + of +
+              print("film_thickness: %.4g is more than the solid's own thickness, "
+                    "%.4g: look whether both are in the same unit",
+                    solid.solid.film_thickness, solid.thickness));
+  const std::string& sizes_here = solid.solid.by_default =
+      sizes_by_default(read, of, solid.shape_name);
+  if (!read.given(of + "shear_modulus"))
+    solid.by_default = "-" + of + print("shear_modulus %g", solid.solid.G);
+  if (!sizes_here.empty()) solid.by_default += (solid.by_default.empty() ? "" : ", ") + sizes_here;
   place(read, of, solid);
   if (!none) solids.push_back(std::move(solid));
 }
@@ -329,8 +339,9 @@ void put_solids(Solver& solver, const Case& setup) {
     if (body.sliding_faces > 0)
       std::fprintf(stderr,
                    "fsi: notice: %s touches %lld faces of walls that move, or of inlets: nothing "
-                   "holds it at them, and a solid with ends slips by some per cent of their speed; "
-                   "better let the other walls move (doc/theory/walls.md)\n",
+                   "holds it at them. On such a wall a solid with ends slips by some per cent of "
+                   "its speed: better let the other walls move. At an inlet no more of it comes in "
+                   "(doc/theory/walls.md)\n",
                    name.c_str(), static_cast<long long>(body.sliding_faces));
     if (body.zone.any() && s.solid.kinematics == KinematicsKind::left_cauchy_green)
       std::fprintf(stderr,

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/extension.hpp"
 
 namespace fsi {
@@ -25,14 +26,22 @@ Real nearest_wall(const Body& body, const Solver& solver) {
   return none;
 }
 
-/// The number of the first other solid that has a cell of the body, too; `none` without one.
+/// The number of the first other solid that has a cell of the body, too, or fills to a half the
+/// face neighbour of a cell that the body fills to a half; `none` without one.
 Real nearest_solid(const Body& body, const Solver& solver) {
   constexpr Real least = 0.05;  // of a cell
   for (std::size_t i = 0; i < solver.bodies().size(); ++i) {
     const Body& other = solver.bodies()[i];
     if (&other == &body) continue;
-    const auto both = [&](Index c) { return body.alpha[c] > least && other.alpha[c] > least; };
-    if (std::ranges::any_of(body.band.cells(), both)) return static_cast<Real>(i);
+    const auto near = [&](Index c) {
+      if (body.alpha[c] > least && other.alpha[c] > least) return true;
+      return body.alpha[c] >= solid::alpha_known &&
+             std::ranges::any_of(body.mesh.cell_faces[c], [&](Index f) {
+               const Index n = beyond(body.mesh, f, c);
+               return n >= 0 && other.alpha[n] >= solid::alpha_known;
+             });
+    };
+    if (std::ranges::any_of(body.band.cells(), near)) return static_cast<Real>(i);
   }
   return none;
 }

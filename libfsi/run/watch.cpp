@@ -11,21 +11,10 @@
 #include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/forewords.hpp"
 #include "libfsi/run/thin_film.hpp"
+#include "libfsi/run/told.hpp"
 
 namespace fsi {
 namespace {
-
-void say(const char* kind, const std::string& text) {
-  if (rank() == 0) std::fprintf(stderr, "fsi: %s: %s\n", kind, text.c_str());
-}
-
-/// Whether more of the solid than specks ahead of it is out of the mesh.
-bool leaves(const Body& body) {
-  constexpr Real specks = 1e-4;
-  return body.volume_out > specks * body.filled.volume;
-}
-
-std::string name_of(const Body& body) { return body.name.empty() ? "solid" : "solid " + body.name; }
 
 /// Of what the solid does at a wall with a film that is not resolved.
 std::string tell_of_wall(const std::string& wall, const Body& body) {
@@ -37,10 +26,6 @@ std::string tell_of_wall(const std::string& wall, const Body& body) {
   return "film between " + name_of(body) + " and " + wall +
          " is thinner than half a cell: how fast it slides there depends on the mesh; " + option +
          "_film_thickness gives the film's friction a thickness (doc/theory/walls.md)";
-}
-
-std::string table_of(const Body& body) {
-  return body.name.empty() ? "solid.csv" : "solid_" + body.name + ".csv";
 }
 
 /// Cells at least half full of solid.
@@ -241,36 +226,6 @@ void Watch::taken_back(const StepReport& report, std::int64_t steps, const Limit
   if (fixed)
     text += print("; -time_step %.4g is too long, a shorter one, or none, costs less", asked.dt);
   say("notice", text);
-}
-
-void Watch::leaving(const Solver& solver) {
-  const Real t = solver.state().t;
-  for (std::size_t i = 0; i < said_.size(); ++i) {
-    const Body& body = solver.bodies()[i];
-    if (!leaves(body)) continue;
-    const bool begins = !said_[i].leaving, ends = body.gone != 0 && !said_[i].left;
-    said_[i].leaving = true, said_[i].left = body.gone != 0;
-    if (begins)
-      say("notice", name_of(body) +
-                        print(" leaves the mesh from t = %g on: column volume_out of ", t) +
-                        table_of(body));
-    if (ends)
-      say("notice",
-          "the last of the " + name_of(body) +
-              print(" left the mesh at t = %g; the rest, %.2g %% of it, a volume of %.3g, was "
-                    "taken out and counts in volume_out",
-                    t, 100 * body.residue / body.filled.volume, body.residue));
-  }
-}
-
-void Watch::resume(const Solver& solver) {
-  for (std::size_t i = 0; i < said_.size(); ++i) {
-    const Body& body = solver.bodies()[i];
-    said_[i].leaving = leaves(body), said_[i].left = body.gone != 0;
-    const ThinFilms thin = thin_films(i, solver);
-    said_[i].sliding = !thin.wall.empty();
-    told_of_touch_ = told_of_touch_ || !thin.solid.empty();
-  }
 }
 
 bool Watch::balance(const Solver& solver, bool divides, bool goes_on) {

@@ -54,7 +54,8 @@ class Watch {
   /// A notice when many attempts at the `steps` of this run failed, with the reason of most of them
   /// and, where a step was given, the advice to give a shorter one.
   void taken_back(const StepReport& report, std::int64_t steps, const Limit& asked);
-  /// Notices when a solid begins to leave the mesh, and when it has.
+  /// Collective. Notices when a solid begins to leave the mesh, and when it has. A warning when the
+  /// flow takes what is left of it back into the mesh.
   void leaving(const Solver& solver);
   /// Collective. A run goes on from a checkpoint: what was told of solids that leave, and of films,
   /// is not told again.
@@ -76,7 +77,7 @@ class Watch {
  private:
   struct Said {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
-         off = false, unmapped = false, sliding = false;
+         off = false, unmapped = false, sliding = false, back = false;
     int pieces = -1;  // at first
     int agreed = 0;   // values in a row in which strain and shape belong to each other
   };

@@ -103,6 +103,8 @@ OPTIONS = [
            "-solid_law_c2_share 0.3", "-solid_law_c2_share", "mooney_rivlin", "gent"),
     option("film of another kinematics", "-solid_shape sphere -solid_center 0.5,0.5,0 -solid_film_thickness 0.01 "
            "-solid_kinematics reference_map", "-solid_film_thickness", "log_conformation"),
+    option("film thicker than the solid", "-solid_shape sphere -solid_center 0.5,0.5,0 -solid_film_thickness 2",
+           "-solid_film_thickness", "2 is more than the solid's own thickness, 0.4", "the same unit"),
     option("one solid beside a list", "-solid_shape sphere -solids_a_shape sphere", "-solid_shape",
            "-solids_a_shape"),
     option("motion of three dimensions", "-solid_shape sphere -velocity deformation", "-velocity",

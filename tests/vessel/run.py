@@ -57,6 +57,9 @@ def check_opening_lines(drivers, folder):
                     r".* = 0.2 of a change", said.stdout), "and with the windkessel and its time")
     check(re.search(r"peak of the flow: patch left at t = 0.*, flow rate 1, Re = 10 .*; U = 1 ", said.stdout) and
           "G* = G / (rho U^2) = 0.5" in said.stdout, "with the peak of the flow and what it makes of G")
+    check("the defaults" not in said.stdout, "nothing of the solid is there by default")
+    bare = run([vessel, "case.yaml", "-output_dir", "bare", "-time_end", "0.01", "-solid_shape", "cylinder"], folder)
+    check("not given, the defaults: -solid_height 0.2" in bare.stdout, "a size by default is told: " + bare.stdout)
     limits = re.search(r"^limits on dt:.*$", said.stdout, re.M).group(0)
     check(limits.count("advective") == 1, "each limit is told once: " + limits)
     again = run([vessel, os.path.join("out", "run.yaml"), "-output_dir", "again"], folder)

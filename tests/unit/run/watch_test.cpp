@@ -133,6 +133,61 @@ TEST(Watch, FilmsThatTheMeshDoesNotResolveAreToldOnce) {
   }
 }
 
+TEST(Watch, AFilmBetweenTwoFullCellsOfTwoSolidsIsThin) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"left", "right"}});
+  // The films, of 0.2 and 1.8 cells, have a face of the mesh in their middle.
+  for (const Real half : {0.005, 0.045}) {
+    Solver two{
+        mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = {{"bottom", Wall{}}, {"top", Wall{}}}}};
+    two.start([](const Vec3&) { return Vec3{}; });
+    for (const Real side : {-1.0, 1.0})
+      two.put_solid(
+          {.shape = shapes::translate(shapes::sphere(0.2), {0.5 + side * (0.2 + half), 0.475, 0}),
+           .G = 1,
+           .mu = 0.1,
+           .name = side < 0 ? "a" : "b"});
+    Watch watch(2);
+    testing::internal::CaptureStderr();
+    watch.strain(0, two, {}, EnergyBalance(two));
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(text.find("film between solid a and solid b") != std::string::npos,
+              rank() == 0 && half < 0.01)
+        << text;
+  }
+}
+
+TEST(Watch, APartThatComesBackFromAnOpeningIsToldOnce) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"bottom", "top"}});
+  Solver solver{mesh,
+                {.rho = 1, .mu_f = 0.1},
+                {.conditions = {{"left", Wall{}}, {"right", Opening{.pressure = 0}}}}};
+  solver.start([](const Vec3&) { return Vec3{}; });
+  solver.put_solid(
+      {.shape = shapes::translate(shapes::sphere(0.2), {0.7, 0.5, 0}), .G = 1, .mu = 0.1});
+  Body& body = *solver.body();
+  Watch watch(1);
+  const auto said = [&](Real out, Real at_opening) {
+    body.volume_out = out * body.filled.volume;
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (norm(mesh.C[c] - Vec3{0.975, 0.475, 0}) < 0.01) body.alpha[c] = at_opening;
+    testing::internal::CaptureStderr();
+    watch.leaving(solver);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(0, 0), "");
+  const std::string leaves = said(0.4, 1), off = said(0.4, 0);
+  EXPECT_EQ(leaves.find("no opening cuts"), std::string::npos) << leaves;
+  if (rank() == 0) {
+    EXPECT_NE(leaves.find("solid leaves the mesh"), std::string::npos) << leaves;
+    EXPECT_NE(off.find("no opening cuts solid any more: 60 % of it"), std::string::npos) << off;
+  }
+  EXPECT_EQ(said(0.4, 0), "");
+  Watch later(1);
+  testing::internal::CaptureStderr();
+  later.resume(solver), later.leaving(solver);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the run before this one told it";
+}
+
 TEST(Watch, StepsTakenBackAreToldOnceWithTheReasonOfMost) {
   Watch watch(0), of_fixed(0);
   const auto said = [](Watch& of, const std::string& limit, std::int64_t few, std::int64_t many,
