@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "libfsi/field/field.hpp"
+#include "libfsi/operators/face_weights.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/operators/symmetry_faces.hpp"
 
@@ -26,6 +28,11 @@ inline Real alternating_part(Real speed, Real recovery, Real h, Real dt, Real le
   constexpr Real C = 0.1;
   return 1 - std::exp(-std::max(C * std::min(speed / h, recovery), least * speed / h) * dt);
 }
+
+/// Collective. The part of gamma that the map loses in each owned cell, `in_zone` in the simplex
+/// zone. Elsewhere it is twice the largest tangent of the angle between d and S, at most 1, and 0
+/// where they differ by rounding.
+std::vector<Real> lost_part(const FaceWeights& weights, const Mesh& mesh, Real in_zone);
 
 /// Fourth differences at owned cell c [Jameson81],
 ///   sum_k w_k (T_k - T - (Gamma + Gamma_k) / 2 . r_k) / sum_k w_k,   w_k = 1 / |r_k|^2,

@@ -8,9 +8,9 @@
 #include "libfsi/core/parallel.hpp"
 #include "libfsi/operators/stencil.hpp"
 #include "libfsi/solid/alternation.hpp"
+#include "libfsi/solid/interface_gradient.hpp"
 #include "libfsi/solid/inward_normal.hpp"
 #include "libfsi/solid/koren.hpp"
-#include "libfsi/solid/simplex_zone.hpp"
 #include "libfsi/solid/solenoidal.hpp"
 
 namespace fsi::solid {
@@ -20,21 +20,6 @@ namespace {
 Real shear_rate(const Tensor& L) {
   const Real xy = L.xy + L.yx, xz = L.xz + L.zx, yz = L.yz + L.zy;
   return std::sqrt(2 * (L.xx * L.xx + L.yy * L.yy + L.zz * L.zz) + xy * xy + xz * xz + yz * yz);
-}
-
-/// Collective. The part of gamma that owned cells lose: s, twice the largest tangent of the angle
-/// between d and S, at most 1, and 0 where they differ by rounding; in the simplex zone `in_zone`.
-std::vector<Real> lost_part(const FaceWeights& weights, const Mesh& mesh, Real in_zone) {
-  constexpr Real rounding = 1e-8;
-  const SimplexZone zone(mesh);
-  std::vector<Real> part(static_cast<std::size_t>(mesh.n_owned), 0);
-  for (Index c = 0; c < mesh.n_owned; ++c) {
-    for (const Index f : mesh.cell_faces[c])
-      if (f < mesh.n_internal && weights.tangent(f, mesh) > rounding)
-        part[c] = std::clamp(2 * weights.tangent(f, mesh), part[c], Real{1});
-    if (zone.has(c)) part[c] = in_zone;
-  }
-  return part;
 }
 
 /// Collective. Which patches of the mesh have such faces.

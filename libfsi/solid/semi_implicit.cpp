@@ -14,11 +14,8 @@ namespace {
 /// (L - L^T) / 2.
 Tensor spin(const Tensor& L) { return 0.5 * (L + -1.0 * transpose(L)); }
 
-/// sin^2 of the angle between d and the normal m; 1 without one.
-Real part_along(const Vec3& m, const Vec3& d) {
-  const Real across = dot(m, d);
-  return norm2(m) > 0 ? 1 - across * across / (norm2(m) * norm2(d)) : 1;
-}
+/// cos^2 of the angle between d and the unit normal m; 0 without one.
+Real part_across(const Vec3& m, const Vec3& d) { return dot(m, d) * dot(m, d) / norm2(d); }
 
 /// Weight of L_N in the mean of L over the line between the cells of face f. The trapezoidal rule
 /// u_N - u_P = (L_P + L_N) / 2 . d is of third order. Across the kink at the surface the part
@@ -112,7 +109,6 @@ SemiImplicitElasticity::Line SemiImplicitElasticity::line(const ElasticTerms& so
                                                           const FaceWeights& weights,
                                                           Index f) const {
   const Index P = mesh_.owner[f];
-  const Vec3 m = solid.normal ? (*solid.normal)[P] : Vec3{};
   if (f < mesh_.n_internal) {
     const Index N = mesh_.neighbour[f];
     return {.f = f,
@@ -120,7 +116,6 @@ SemiImplicitElasticity::Line SemiImplicitElasticity::line(const ElasticTerms& so
             .g = weights.g[f],
             .u_N = solid.u[N],
             .L_N = solid.L[N],
-            .m = solid.normal ? m + (*solid.normal)[N] : Vec3{},
             .in_zone = zone_.has(P) || zone_.has(N)};
   }
   const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]), d = to_image(mesh_, f);
@@ -129,7 +124,6 @@ SemiImplicitElasticity::Line SemiImplicitElasticity::line(const ElasticTerms& so
           .g = norm2(mesh_.Sf[f]) / dot(mesh_.Sf[f], d),
           .u_N = image(solid.u[P], n),
           .L_N = image(solid.L[P], n),
-          .m = m + image(m, n),
           .in_zone = zone_.has(P)};
 }
 
@@ -161,8 +155,10 @@ Vec3 SemiImplicitElasticity::damping(Real& k, const ElasticTerms& solid, const F
     e *= 2;
     k += e;
   } else {
-    if (!in_zone && solid.normal) e *= part_along(line.m, line.d);
-    e = std::max(e - solid.alpha[f] * solid.mu_s, Real{0});
+    const Real viscous = solid.alpha[f] * solid.mu_s;
+    e = std::max(e - viscous, Real{0});
+    if (!in_zone && solid.normal)
+      e -= part_across((*solid.normal)[f], line.d) * std::max(e - solid.across * viscous, Real{0});
     k += std::max(e / (in_zone ? in_simplices : in_boxes) - k - inertia, Real{0});
   }
   // The flux e g (u_N - u_P - L_f . d). With a one-sided L it is left out if its product with u_N

@@ -40,8 +40,10 @@ struct ElasticTerms {
   bool kink = false;  ///< whether the mean of L allows for the kink of u
   /// Whether L in the simplex zone is one-sided (InterfaceGradient).
   bool one_sided = false;
-  /// The normal m in cells at a surface between two viscosities, else zero; null: one viscosity.
-  const CellField<Vec3>* normal = nullptr;
+  /// The unit normal m of the surface at the band's faces, zero away from it; null: e does not
+  /// depend on the direction.
+  const FaceField<Vec3>* normal = nullptr;
+  Real across = 0;       ///< bound on e across the surface, in parts of alpha_f mu_s
   Real rho_least = rho;  ///< the least density of solid and fluid
 };
 
@@ -71,9 +73,14 @@ struct ElasticTerms {
 /// elastic wave passes a cell. The compact viscous term of the solid does a part of it, so that e
 /// is less by alpha_f mu_s.
 ///
-/// At a surface between two viscosities e is multiplied by sin^2 of the angle between d and the
-/// normal. Across the surface the kink makes avg L inaccurate, which would be a stress of first
-/// order. There the viscous stress in series damps instead.
+/// At the surface, with the angle a between d and the normal m,
+///
+///   e = sin^2 a e_0 + cos^2 a min(e_0, c alpha_f mu_s),   e_0 as above.
+///
+/// Where the velocity is curved beside its kink, avg L has an error across the surface. The stress
+/// of it drags the fluid along, the more the stiffer the solid is. With c = 2 it stays of the size
+/// of the error of the viscous stress. Between two viscosities the error is one in the kink itself,
+/// and c = 0: there the viscous stress in series damps instead.
 ///
 /// The mean avg L is (L_P + L_N) / 2, exact for a quadratic velocity. At the surface it is
 /// alpha_f L_solid + (1 - alpha_f) L_fluid, with L of the cells on either side. That is exact for a
@@ -123,7 +130,6 @@ class SemiImplicitElasticity {
     Real g;        ///< coefficient of u_N - u_P in the flux
     Vec3 u_N;      ///< velocity of N
     Tensor L_N;    ///< velocity gradient of N
-    Vec3 m;        ///< sum of the normals m of P and N, zero with one viscosity
     bool in_zone;  ///< whether P or N is in the simplex zone
   };
   Line line(const ElasticTerms& solid, const FaceWeights& weights, Index f) const;

@@ -188,20 +188,20 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
   }
   // The map kinematics is less accurate with less damping where the surface lies in mid-cell.
   const bool map = std::holds_alternative<solid::ReferenceMap>(body.kinematics);
-  const solid::ElasticTerms terms{
-      .lambda = body.lambda,
-      .alpha = body.alpha_f,
-      .u = flow.u,
-      .L = L,
-      .fraction = body.alpha,
-      .G = body.G,
-      .rho = body.rho,
-      .mu_s = map ? 0 : body.mu,
-      .dt = dt,
-      .kink = !map,
-      .one_sided = body.interface_gradient.has_value(),
-      .normal = body.two_viscosities ? &body.two_viscosities->normal : nullptr,
-      .rho_least = flow.rho_least};
+  const solid::ElasticTerms terms{.lambda = body.lambda,
+                                  .alpha = body.alpha_f,
+                                  .u = flow.u,
+                                  .L = L,
+                                  .fraction = body.alpha,
+                                  .G = body.G,
+                                  .rho = body.rho,
+                                  .mu_s = map ? 0 : body.mu,
+                                  .dt = dt,
+                                  .kink = !map,
+                                  .one_sided = body.interface_gradient.has_value(),
+                                  .normal = map && !body.two_viscosities ? nullptr : &body.normal_f,
+                                  .across = body.two_viscosities ? 0.0 : 2.0,
+                                  .rho_least = flow.rho_least};
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "tests/unit/support/box_file.hpp"
@@ -92,7 +93,18 @@ struct Stiff {
   bool inside(Index c) const { return norm(mesh.C[c] - Vec3{0.5, 0.5, 0}) < 0.3; }
   void apply() {
     band.rebuild(alpha, 0.5);
-    const ElasticTerms stiff{lambda, share, u, L, alpha, G, rho, mu_s, dt, kink};
+    const ElasticTerms stiff{.lambda = lambda,
+                             .alpha = share,
+                             .u = u,
+                             .L = L,
+                             .fraction = alpha,
+                             .G = G,
+                             .rho = rho,
+                             .mu_s = mu_s,
+                             .dt = dt,
+                             .kink = kink,
+                             .normal = normal ? &*normal : nullptr,
+                             .across = across};
     force.fill({});
     elasticity.clear(kappa, stiffness);
     elasticity.apply(kappa, stiffness, force, stiff, weights, band);
@@ -100,6 +112,8 @@ struct Stiff {
   static constexpr Real rho = 2, h = 0.125;
   Real dt = 0.1, mu_s = 0;
   bool kink = false;
+  std::optional<FaceField<Vec3>> normal;
+  Real across = 0;
   Mesh mesh;
   FaceWeights weights{mesh};
   CellField<Real> lambda, alpha{mesh, 1};
@@ -218,6 +232,29 @@ TEST(SemiImplicitElasticity, CountsTheSolidsViscosity) {
       EXPECT_NEAR(stiff.force[c].y, -4 * e / (Stiff::h * Stiff::h) * sign(x), 1e-10);
     }
   }
+}
+
+// Where the surface passes with the normal along x, what alternates along y is pushed back by the
+// whole of e, and what alternates along x by no more than c mu_s, however stiff the solid is.
+TEST(SemiImplicitElasticity, ItsStrengthAcrossTheSurfaceIsThatOfTheViscousStress) {
+  const Real whole = Stiff::h * std::sqrt(Stiff::rho * G * 2);
+  for (const bool across : {false, true})
+    for (const Real c : {0.0, 2.0, 1e3}) {
+      const auto sign = [&](const Vec3& x) {
+        return std::lround(8 * (across ? x.x : x.y) - 0.5) % 2 == 0 ? 1.0 : -1.0;
+      };
+      Stiff stiff([&](const Vec3& x) { return Vec3{0, sign(x), 0}; });
+      stiff.normal.emplace(stiff.mesh, Vec3{1, 0, 0});
+      stiff.mu_s = 0.05 * whole, stiff.across = c;
+      stiff.apply();
+      const Real e = whole - stiff.mu_s;
+      const Real left = across ? std::min(e, c * stiff.mu_s) : e;
+      for (Index i = 0; i < stiff.mesh.n_cells; ++i) {
+        const Vec3& x = stiff.mesh.C[i];
+        if (norm(x - Vec3{0.5, 0.5, 0}) > 0.1) continue;
+        EXPECT_NEAR(stiff.force[i].y, -4 * left / (Stiff::h * Stiff::h) * sign(x), 1e-10);
+      }
+    }
 }
 
 // Across the surface between two centres u has a kink: no force where each side is linear and L the

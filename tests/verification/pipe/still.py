@@ -33,14 +33,14 @@ def run(driver, mesh, folder, speed, options):
 def disc(driver, mesh, folder):
     resting, moving = (run(driver, mesh, folder, speed, DISC)[-1] for speed in (0, 0.98))
     assert abs(moving["ux"] + 0.98 - resting["ux"]) < 1e-3
-    assert abs(moving["elastic_energy"] / resting["elastic_energy"] - 1) < 0.3
+    assert max(moving["elastic_energy"], resting["elastic_energy"]) < 1e-8
     assert moving["shape_energy"] < 2.5 * moving["elastic_energy"]
     assert resting["shape_energy"] < 1.5 * resting["elastic_energy"]
 
 
 def ring(driver, mesh, folder):
     end = run(driver, mesh, folder, 0.6, RING)[-1]
-    assert end["elastic_energy"] < 2.5e-5 and end["shape_energy"] < 2.2 * end["elastic_energy"]
+    assert end["elastic_energy"] < 6e-6 and end["shape_energy"] < 2.2 * end["elastic_energy"]
     assert abs(end["angle"]) < 1e-4 and end["min_eig_B"] > 0.99
 
 
