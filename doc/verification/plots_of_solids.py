@@ -103,6 +103,14 @@ def migration():
     return figure
 
 
+def oscillation():
+    figure, ax = panel()
+    lines(ax, grouped((f"{row[0]}, m = {row[1]}", first(row[2]), first(row[3])) for row in rows("oscillation")),
+          "cells a radius", "error of q", -2)
+    legend(figure, ax, 2)
+    return figure
+
+
 def paper_mesh():
     figure, left, right = panels()
     found = [(re.sub(r"^\d+, |, fine = [\d.]+|(, )?half of the pipe", "", row[0]) or "at rest",
@@ -301,6 +309,6 @@ def torus():
     return figure
 
 
-PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, lodging, mesh_quality, migration, paper_mesh,
+PICTURES = (balance, edge, heavy_slab, inclusion, kinematics, lodging, mesh_quality, migration, oscillation, paper_mesh,
             paper_throat, passing_discs, reference_map, settling, shape, shear, slab, stability,
             stiff, stiff_rings, torus)

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "libfsi/core/parallel.hpp"
+#include "libfsi/mesh/figures.hpp"
 #include "libfsi/run/thin_film.hpp"
 #include "libfsi/run/told.hpp"
 #include "libfsi/run/watch.hpp"
