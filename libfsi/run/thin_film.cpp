@@ -26,8 +26,8 @@ Real nearest_wall(const Body& body, const Solver& solver) {
   return none;
 }
 
-/// The number of the first other solid that has a cell of the body, too, or fills to a half the
-/// face neighbour of a cell that the body fills to a half; `none` without one.
+/// The number of the first other solid that has a cell of the body, too; `none` without one. Face
+/// neighbours of which each is filled to a half by one of them count as well.
 Real nearest_solid(const Body& body, const Solver& solver) {
   constexpr Real least = 0.05;  // of a cell
   for (std::size_t i = 0; i < solver.bodies().size(); ++i) {
