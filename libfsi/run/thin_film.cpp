@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <variant>
 
 #include "libfsi/core/parallel.hpp"
@@ -13,15 +14,18 @@ namespace {
 
 constexpr Real none = std::numeric_limits<Real>::max();
 
-/// The number of the first wall that has a cell which the body fills to a half; `none` without one.
-/// The walls that it stood on at the start do not count.
-Real nearest_wall(const Body& body, const Solver& solver) {
+/// The number of the first patch of a kind that has a cell which the body fills to a half; `none`
+/// without one. Walls that it stood on at the start and faces on planes that cut it do not count.
+template <class Kind>
+Real nearest_patch(const Body& body, const Solver& solver) {
   const Mesh& mesh = solver.mesh();
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    if (!std::holds_alternative<Wall>(solver.conditions()[i]) || body.stood_on[i] != 0) continue;
+    if (!std::holds_alternative<Kind>(solver.conditions()[i])) continue;
+    if (std::is_same_v<Kind, Wall> && body.stood_on[i] != 0) continue;
     const Patch& patch = mesh.patches[i];
     for (Index f = patch.begin; f < patch.end; ++f)
-      if (body.alpha[mesh.owner[f]] >= solid::alpha_known) return static_cast<Real>(i);
+      if (body.alpha[mesh.owner[f]] >= solid::alpha_known && !body.cut.has(f, mesh))
+        return static_cast<Real>(i);
   }
   return none;
 }
@@ -50,11 +54,17 @@ Real nearest_solid(const Body& body, const Solver& solver) {
 
 ThinFilms thin_films(std::size_t i, const Solver& solver) {
   const Body& body = solver.bodies()[i];
-  const Real wall = global_min(nearest_wall(body, solver));
+  const Real wall = global_min(nearest_patch<Wall>(body, solver));
+  const Real image = global_min(nearest_patch<Slip>(body, solver));
   const Real other = global_min(nearest_solid(body, solver));
-  const auto number = [](Real of) { return static_cast<std::size_t>(of); };
-  return {.wall = wall < none ? solver.mesh().patches[number(wall)].name : "",
-          .solid = other < none ? solver.bodies()[number(other)].name : ""};
+  const auto patch = [&](Real of) { return solver.mesh().patches[static_cast<std::size_t>(of)]; };
+  ThinFilms thin;
+  if (wall < none) thin.wall = patch(wall).name;
+  if (other < none)
+    thin.other = "solid " + solver.bodies()[static_cast<std::size_t>(other)].name;
+  else if (image < none)
+    thin.other = "its image at " + patch(image).name;
+  return thin;
 }
 
 }  // namespace fsi

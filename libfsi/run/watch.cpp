@@ -272,9 +272,9 @@ void Watch::films(std::size_t i, const Solver& solver) {
     said.sliding = true;
     say("notice", at + tell_of_wall(thin.wall, body));
   }
-  if (!thin.solid.empty() && !told_of_touch_) {
+  if (!thin.other.empty() && !told_of_touch_) {
     told_of_touch_ = true;
-    say("notice", at + "film between " + name_of(body) + " and solid " + thin.solid +
+    say("notice", at + "film between " + name_of(body) + " and " + thin.other +
                       " is thinner than a cell: there they move with one velocity, and how they "
                       "slide along each other depends on the mesh (doc/theory/step.md)");
   }

@@ -74,7 +74,7 @@ void Watch::resume(const Solver& solver) {
     said_[i].back = said_[i].leaving && comes_back(body, solver);
     const ThinFilms thin = thin_films(i, solver);
     said_[i].sliding = !thin.wall.empty();
-    told_of_touch_ = told_of_touch_ || !thin.solid.empty();
+    told_of_touch_ = told_of_touch_ || !thin.other.empty();
   }
 }
 

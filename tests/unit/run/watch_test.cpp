@@ -133,6 +133,26 @@ TEST(Watch, FilmsThatTheMeshDoesNotResolveAreToldOnce) {
   }
 }
 
+// A disc a cell off a plane of symmetry, then half a cell; and one that the plane cuts.
+TEST(Watch, AFilmToTheImageAtAPlaneOfSymmetryIsThin) {
+  const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"left", "right"}});
+  for (const auto& [y, thin] : {std::pair{0.25, false}, {0.222, true}, {0.1, false}}) {
+    Solver solver{
+        mesh, {.rho = 1, .mu_f = 0.1}, {.conditions = {{"bottom", Slip{}}, {"top", Wall{}}}}};
+    solver.start([](const Vec3&) { return Vec3{}; });
+    solver.put_solid(
+        {.shape = shapes::translate(shapes::sphere(0.2), {0.525, y, 0}), .G = 1, .mu = 0.1});
+    Watch watch(1);
+    testing::internal::CaptureStderr();
+    watch.strain(0, solver, {}, EnergyBalance(solver));
+    const std::string said = testing::internal::GetCapturedStderr();
+    if (rank() == 0) {
+      EXPECT_EQ(said.find("its image at bottom is thinner than a cell") != std::string::npos, thin)
+          << y << said;
+    }
+  }
+}
+
 TEST(Watch, AFilmBetweenTwoFullCellsOfTwoSolidsIsThin) {
   const Mesh mesh = test::read_box({.n = {20, 20, 0}, .periodic = {"left", "right"}});
   // The films, of 0.2 and 1.8 cells, have a face of the mesh in their middle.
