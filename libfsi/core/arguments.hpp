@@ -41,7 +41,9 @@ std::vector<OptionsFile> options_files(const Arguments& arguments);
 /// with _); "" where none is.
 std::string repeated_key(const std::string& yaml);
 
-/// The line and the reason where a text is no YAML, as libyaml tells them; "" where it is.
+/// The line and the reason where a text is no YAML, as libyaml tells them, or where it holds what
+/// no options file does: a block without keys within another, or a list of blocks. "" where it is
+/// right.
 std::string yaml_fault(const std::string& yaml);
 
 }  // namespace fsi

@@ -83,7 +83,7 @@ void check_file(const OptionsFile& file) {
   const std::string text = text_of(name);
   if (!file.yaml && !told) return;
   const std::string wrong = yaml_fault(text), twice = repeated_key(text);
-  require(wrong.empty(), "options file \"" + name + "\" is not valid YAML: " + wrong);
+  require(wrong.empty(), "options file \"" + name + "\" is not valid YAML of options: " + wrong);
   require(twice.empty(), "options file \"" + name + "\" gives " + twice + " twice");
 }
 

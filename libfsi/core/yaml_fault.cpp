@@ -1,6 +1,7 @@
 #include <yaml.h>
 
 #include <sstream>
+#include <vector>
 
 #include "libfsi/core/arguments.hpp"
 
@@ -29,6 +30,28 @@ std::string reason(const yaml_parser_t& parser, const std::string& yaml) {
   return text;
 }
 
+/// What begins with an event that PETSc drops without a word or does not take: a block without keys
+/// within another, or a list of blocks. around: the events of the blocks and lists about it; last:
+/// the event before. "" for other events.
+std::string no_options(const yaml_event_t& event, yaml_event_type_t last,
+                       const std::vector<yaml_event_type_t>& around) {
+  std::string what;
+  if (event.type == YAML_MAPPING_END_EVENT && last == YAML_MAPPING_START_EVENT && around.size() > 1)
+    what = "a block without keys";
+  if (event.type == YAML_MAPPING_START_EVENT && !around.empty() &&
+      around.back() == YAML_SEQUENCE_START_EVENT)
+    what = "a list of blocks; give each block a name of its own, as in {left: {...}, right: {...}}";
+  if (what.empty()) return "";
+  return "line " + std::to_string(event.start_mark.line + 1) + ": " + what;
+}
+
+/// Keeps the starts of the blocks and lists that are open after an event.
+void follow(std::vector<yaml_event_type_t>& around, yaml_event_type_t event) {
+  if (event == YAML_MAPPING_START_EVENT || event == YAML_SEQUENCE_START_EVENT)
+    around.push_back(event);
+  if (event == YAML_MAPPING_END_EVENT || event == YAML_SEQUENCE_END_EVENT) around.pop_back();
+}
+
 }  // namespace
 
 std::string yaml_fault(const std::string& yaml) {
@@ -37,13 +60,18 @@ std::string yaml_fault(const std::string& yaml) {
   yaml_parser_set_input_string(&parser, reinterpret_cast<const unsigned char*>(yaml.data()),
                                yaml.size());
   std::string fault;
+  std::vector<yaml_event_type_t> around;
+  yaml_event_type_t last = YAML_NO_EVENT;
   for (bool going = true; going;) {
     yaml_event_t event;
     if (yaml_parser_parse(&parser, &event) == 0) {
       fault = reason(parser, yaml);
       break;
     }
-    going = event.type != YAML_STREAM_END_EVENT;
+    fault = no_options(event, last, around);
+    follow(around, event.type);
+    last = event.type;
+    going = event.type != YAML_STREAM_END_EVENT && fault.empty();
     yaml_event_delete(&event);
   }
   yaml_parser_delete(&parser);

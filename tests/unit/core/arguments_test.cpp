@@ -75,6 +75,9 @@ TEST(Arguments, KeysGivenTwiceAreFoundWhereverTheyNest) {
 TEST(Arguments, WhatIsNoYamlIsToldWithItsLine) {
   EXPECT_EQ(yaml_fault("a: {b: 1}\nc: [1, 2]\n"), "");
   EXPECT_EQ(yaml_fault(""), "");
+  EXPECT_EQ(yaml_fault("{}"), "");
+  EXPECT_EQ(yaml_fault("a: 1\nsolids: {}\n"), "line 2: a block without keys");
+  EXPECT_TRUE(yaml_fault("solids:\n  - {shape: torus}\n").starts_with("line 2: a list of blocks"));
   for (const auto& [text, line, words] :
        {std::tuple{"a: {b: 1\nc: 2\n", "line 2: ", "flow mapping that begins in line 1"},
         {"a:\n  b: 1\n   c: 2\n", "line 3: ", "mapping values are not allowed"},
