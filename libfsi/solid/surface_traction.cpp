@@ -81,9 +81,8 @@ Real SurfaceTraction::harmonic(Real alpha_f, Real mu) const {
 }
 
 Real SurfaceTraction::bounded(const CutFaces& cut, Index f) const {
-  const Real whole = mean(cut, f);
-  if (simplex(f)) return whole;
-  return std::min(whole, harmonic(cut.alpha_f[f], mu_least_) + explicit_ratio_max * mu_.fluid);
+  const Real most = harmonic(cut.alpha_f[f], mu_least_) + explicit_ratio_max * mu_.fluid;
+  return std::min(mean(cut, f), most);
 }
 
 void SurfaceTraction::bound_viscosity(FaceField<Real>& mu, const CutFaces& cut,
@@ -330,11 +329,12 @@ void SurfaceTraction::apply(CellField<Vec3>& force, FaceField<Real>& rhie_chow_s
 void SurfaceTraction::add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
                                         const FaceField<Real>& alpha_f, const Band& band) const {
   const bool in = mu_.solid > mu_.fluid;
+  const Real most = explicit_ratio_max * mu_.fluid;
   for (const Index f : band.faces()) {
     if (touch_[mesh_.owner[f]] + touch_[second_cell(mesh_, f)] == 0) continue;
     if (in) {
       if (simplex(f) && (f < mesh_.n_internal || symmetry_.has(f, mesh_)))
-        stiff[f] += implicit_share * (mu_.solid - mu_.fluid);
+        stiff[f] += std::min(implicit_share * (mu_.solid - mu_.fluid), most);
       continue;
     }
     // mu_h / mu_s

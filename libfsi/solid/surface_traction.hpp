@@ -91,9 +91,12 @@ class SurfaceTraction {
   /// on triangles and tetrahedra alone.
   ///
   ///   stiff_f <- stiff_f + kappa_f (mu_h / mu_s - 1) + C (mu_f - mu_s),   C = 1
-  ///   stiff_f <- stiff_f + C_s (mu_s - mu_f)
+  ///   stiff_f <- stiff_f + min(C_s (mu_s - mu_f), `explicit_ratio_max` mu_f)
   ///
   /// stiff: that of all solids, kappa before the first of them is added.
+  /// The explicit stress counts mu_s as at most `explicit_ratio_max` mu_f, so that the second line
+  /// needs no more. More of it acts as inertia: it holds up the decay of a flow beside the surface.
+  /// The strain of the solid then feeds on that flow in a disc of mu_s / mu_f = 200 at rest.
   /// The elastic stress of such a face has the factor alpha_f mu_h / mu_s, where kappa_f has
   /// alpha_f. The second term acts on the change of u in a step. Its error is of order dt in the
   /// stress of these faces alone, and of second order in u if dt ~ h. With C = 0.2 an inclusion of
@@ -101,8 +104,7 @@ class SurfaceTraction {
   void add_semi_implicit(FaceField<Real>& stiff, const FaceField<Real>& kappa,
                          const FaceField<Real>& alpha_f, const Band& band) const;
 
-  /// Before apply and the momentum equation: lowers mu of the faces at the surface, but those of
-  /// triangles and tetrahedra, to
+  /// Before apply and the momentum equation: lowers mu of the faces at the surface to
   ///
   ///   mu <- min(mu, mu_h + `explicit_ratio_max` mu_f).
   ///
