@@ -274,23 +274,6 @@ void warn_of_empty_tables(Real interval, Real end) {
                interval, end);
 }
 
-/// Words on a solid whose section is not what its name tells, or that has few cells.
-void tell_of_section(const std::string& name, const std::string& shape, int dim, Real through) {
-  if (dim == 2 && shape == "disk")
-    std::fprintf(stderr,
-                 "fsi: notice: %s: in two dimensions a disk is cut to a rectangle; the shape "
-                 "sphere is a disc there\n",
-                 name.c_str());
-  // With fewer no cell has solid on all sides.
-  constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
-  if (through < few)
-    std::fprintf(stderr,
-                 "fsi: warning: %s: %.2g cells through its thickness are %s; take 4 or more, 6 "
-                 "are better (doc/howto/vessel.md)\n",
-                 name.c_str(), through,
-                 through < too_few ? "too few, its speed and strain are wrong" : "few");
-}
-
 }  // namespace
 
 void tell_of_inertia(const Case& setup, Real length, Real velocity) {
@@ -353,6 +336,7 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
     if (!s.by_default.empty()) std::printf("; not given, the defaults: %s", s.by_default.c_str());
     std::printf("\n");
     tell_of_section(name, s.shape_name, mesh.dim, thickness / edges[i]);
+    if (s.solid.G > 0) tell_of_viscosity(name, s.solid.mu / p.mu_f, thickness / edges[i]);
   }
   std::fflush(stdout);
 }

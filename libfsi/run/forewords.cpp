@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <vector>
 
@@ -139,6 +140,32 @@ Real lean_at_planes(const shapes::Shape& shape, const std::vector<char>& faces, 
     if (across > 0) most = std::max(most, std::asin(std::min(Real{1}, across / norm(g))));
   }
   return global_max(most) * 180 / std::numbers::pi;
+}
+
+void tell_of_section(const std::string& name, const std::string& shape, int dim, Real through) {
+  if (dim == 2 && shape == "disk")
+    std::fprintf(stderr,
+                 "fsi: notice: %s: in two dimensions a disk is cut to a rectangle; the shape "
+                 "sphere is a disc there\n",
+                 name.c_str());
+  // With fewer no cell has solid on all sides.
+  constexpr Real few = 3.5, too_few = 2.5;  // 4, rounded
+  if (through < few)
+    std::fprintf(stderr,
+                 "fsi: warning: %s: %.2g cells through its thickness are %s; take 4 or more, 6 "
+                 "are better (doc/howto/vessel.md)\n",
+                 name.c_str(), through,
+                 through < too_few ? "too few, its speed and strain are wrong" : "few");
+}
+
+void tell_of_viscosity(const std::string& name, Real ratio, Real through) {
+  constexpr Real high = 50, few = 40;
+  if (ratio < high || through >= few) return;
+  std::fprintf(stderr,
+               "fsi: notice: %s: with a viscosity ratio of %.3g and %.3g cells through it, its "
+               "elastic energy may be several times too large, and its deformation by a half "
+               "(doc/verification/README.md)\n",
+               name.c_str(), ratio, through);
 }
 
 }  // namespace fsi

@@ -91,6 +91,8 @@ def check_meshes(source, drivers, folder):
     viscous = vessel + ["-solid_viscosity", "0.51", "-fluid_viscosity", "0.01"]
     said = run(viscous, folder)
     check("times the fluid's" not in said.stderr, "and so do quads: " + said.stderr)
+    check("with a viscosity ratio of 51 and 4.8 cells through it" in said.stderr,
+          "a coarse viscous solid is told: " + said.stderr)
     said = run(viscous + ["-solid_kinematics", "left_cauchy_green"], folder)
     check("51 times the fluid's" in said.stderr and "beyond 50 times" in said.stderr,
           "with left_cauchy_green a warning: " + said.stderr)
