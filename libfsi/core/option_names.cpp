@@ -74,6 +74,18 @@ std::string nearest(const std::string& name, const std::vector<std::string>& val
   return found == valid.end() || distance(name, *found) > most ? "" : *found;
 }
 
+std::string nearest_option(const std::string& name, const std::vector<std::string>& valid) {
+  const auto head = [](const std::string& option) { return option.substr(0, option.find('_')); };
+  const std::vector<std::string> named{"solids", "patches"};
+  std::vector<std::string> heads = named;
+  for (const std::string& option : valid) heads.push_back(head(option));
+  const std::string begin = head(name), near = nearest(begin, heads, begin.size() / 2);
+  const bool of_named = near != begin && std::ranges::find(named, near) != named.end();
+  if (of_named && nearest(name, valid, begin.size() / 2).empty())
+    return near + name.substr(begin.size());
+  return nearest(name, valid);
+}
+
 std::string nearest_before_underscore(const std::string& name,
                                       const std::vector<std::string>& valid, std::size_t most) {
   std::string found;

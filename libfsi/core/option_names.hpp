@@ -18,8 +18,12 @@ bool of_solver(const std::string& name);
 std::string nearest(const std::string& name, const std::vector<std::string>& valid,
                     std::size_t most = std::string::npos);
 
-/// The same for what stands before one of the underscores in `name`: the word that is nearest to
-/// any.
+/// The valid option nearest to a name. A first word that is nearest to that of a block with names
+/// of the user's own, as solids, is mended alone: what follows it may be any of these names.
+std::string nearest_option(const std::string& name, const std::vector<std::string>& valid);
+
+/// As `nearest`, for what stands before one of the underscores in `name`: the word that is nearest
+/// to any.
 std::string nearest_before_underscore(const std::string& name,
                                       const std::vector<std::string>& valid, std::size_t most);
 

@@ -292,7 +292,7 @@ void Options::check_unknown() const {
     if (block)
       sentence += " (a block of a case file takes options, " + name + ": {...})";
     else if (!valid.empty())
-      sentence += " (nearest is -" + nearest(name, valid) + ")";
+      sentence += " (nearest is -" + nearest_option(name, valid) + ")";
   }
   require(sentence.empty(), sentence + "; " + program_ + " -help lists all");
 }

@@ -172,6 +172,10 @@ TEST(Options, AnUnknownNameIsAnErrorWithTheNearestOne) {
   EXPECT_NE(sentence("-fluid_viscocity 1", read).find("nearest is -fluid_viscosity"),
             std::string::npos);
   EXPECT_EQ(sentence("-fluid_viscosity 1 -p_ksp_monitor", read), "");
+  EXPECT_NE(sentence("-soilds_left_shape torus", read).find("nearest is -solids_left_shape"),
+            std::string::npos);
+  EXPECT_NE(sentence("-fliud_viscosity 1", read).find("nearest is -fluid_viscosity"),
+            std::string::npos);
 }
 
 TEST(Options, AnOptionNobodyReadIsAnError) {
