@@ -188,9 +188,8 @@ void Reader::nodes_4() {
 
 Index Reader::node(std::int64_t number, const std::string& who) {
   const Index i = numbering_[number];
-  if (i < 0) {
+  if (i < 0)
     in_.fail(who + " names node " + std::to_string(number) + ", which the file does not define");
-  }
   return i;
 }
 
@@ -290,6 +289,7 @@ void Reader::section(const std::string& name) {
   if (name == "$PhysicalNames") return physical_names();
   if (name == "$Entities") return entities();
   if (name == "$Nodes") {
+    if (!raw_.points.empty()) in_.fail("a second section $Nodes; write one");
     is(2.2) ? nodes_2() : nodes_4();
     numbering_.build(raw_.point_tags);
     for (std::size_t i = 0; i < raw_.point_tags.size(); ++i)
@@ -330,7 +330,7 @@ std::vector<std::int32_t> Reader::groups_of(const Elements& sides, std::size_t i
   const auto found = physicals_.find({raw_.dim - 1, sides.entities[i]});
   if (found == physicals_.end() || found->second.empty()) return {sides.physicals[i]};
   std::vector<std::int32_t> groups = found->second;
-  for (std::int32_t& group : groups) group = std::abs(group);
+  for (std::int32_t& group : groups) group = std::abs(std::max(group, -INT32_MAX));
   const auto named = [&](std::int32_t group) { return names_.contains({raw_.dim - 1, group}); };
   if (std::ranges::any_of(groups, named)) std::erase_if(groups, std::not_fn(named));
   return groups;

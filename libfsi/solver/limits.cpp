@@ -12,15 +12,10 @@
 namespace fsi {
 
 Real Solver::courant_rate_max(const FaceField<Real>& phi) const {
+  if (modes_.implicit_convection) return courant_.rate(phi);
   Real rate = 0;
-  if (!modes_.implicit_convection) {
-    for (Index c = 0; c < mesh_.n_owned; ++c) rate = std::max(rate, courant_rate(phi, mesh_, c));
-    return global_max(rate);
-  }
-  // The transport of the solids is explicit.
-  for (const Body& body : bodies_)
-    for (const Index c : body.band.cells()) rate = std::max(rate, courant_rate(phi, mesh_, c));
-  return std::max(global_max(rate), courant_.rate(phi));
+  for (Index c = 0; c < mesh_.n_owned; ++c) rate = std::max(rate, courant_rate(phi, mesh_, c));
+  return global_max(rate);
 }
 
 std::vector<Real> Solver::courant_rates() const {
@@ -29,11 +24,7 @@ std::vector<Real> Solver::courant_rates() const {
   if (!modes_.implicit_convection) return own;
   std::vector<Real> swept = own;
   for (Index c = 0; c < mesh_.n_owned; ++c) swept[c] *= mesh_.V[c];
-  std::vector<Real> rates = courant_.of_neighbourhood(swept);
-  for (const Body& body : bodies_)
-    for (const Index c : body.band.cells())
-      if (c < mesh_.n_owned) rates[c] = own[c];
-  return rates;
+  return courant_.of_neighbourhood(swept);
 }
 
 Real Solver::advective_dt(Real courant) const {

@@ -84,7 +84,7 @@ class Solver {
   void resume();
 
   /// Collective. Largest dt with Courant number (dt / 2V) sum |phi| below `courant` in every cell.
-  /// A triangle or tetrahedron away from the solids has that of its neighbourhood (flow::Courant).
+  /// A triangle or tetrahedron has that of its neighbourhood (flow::Courant).
   Real advective_dt(Real courant) const;
   /// Collective. How long a step may be for explicit upwind convection; the largest number with
   /// central convection.

@@ -186,7 +186,8 @@ void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const In
     const Piece &p = interface.piece[P], &q = interface.piece[N];
     if (!(p.area > 0) && !(q.area > 0)) {
       const Real out = alpha[P] > alpha[N] ? 1 : -1;
-      normal[f] = alpha[P] == alpha[N] ? Vec3{} : (out / norm(mesh.Sf[f])) * mesh.Sf[f];
+      const bool surface = std::abs(alpha[P] - alpha[N]) > interface_eps;
+      normal[f] = surface ? (out / norm(mesh.Sf[f])) * mesh.Sf[f] : Vec3{};
       continue;
     }
     normal[f] = mean(p.n_hat + q.n_hat);

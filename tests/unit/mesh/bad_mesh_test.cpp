@@ -102,6 +102,7 @@ std::vector<Fault> faults_of_the_file() {
        "element 13 names node 99, which the file does not define"},
       {"node twice", with_node(good, "6", "0.3 0.3 0\n6 0.3 0.3 0"), "node 6 is defined twice"},
       {"number twice", with(good, "6 0.3", "5 0.3 0.3 0"), "node 5 is defined twice"},
+      {"nodes twice", good + "$Nodes\n1\n1 0 0 0\n$EndNodes\n", "a second section $Nodes"},
       {"second order", with_element(good, "13", "16 2 9 9 1 2 6 5 1 1 1 1"), "element type 16"},
       {"loose text", good + "\nend\n", "expected a section ($...), found \"end\""},
   };

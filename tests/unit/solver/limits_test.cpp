@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "libfsi/core/parallel.hpp"
 #include "libfsi/run/case.hpp"
 #include "libfsi/solver/energy.hpp"
 #include "tests/unit/support/box_file.hpp"
@@ -121,6 +123,33 @@ TEST(StableStep, GrowsByATenthFromTheFirst) {
     EXPECT_EQ(limit.name, "start");
     flow.solver.advance(limit.dt);
   }
+}
+
+// A layer of flat tetrahedra sets the step neither in the fluid nor in a solid, of which the flow
+// may pass each cell but once in a step.
+TEST(StableStep, IsNotThatOfTheFlatTetrahedraOfASolid) {
+  const auto flat_layer = [](const Vec3& x) {
+    return x.z > 0.4 && x.z < 0.6 ? Vec3{x.x, x.y, 1.0 / 3 + 0.03} : x;
+  };
+  const Mesh mesh = test::read_box({.n = {6, 6, 6},
+                                    .simplex = true,
+                                    .periodic = {"left", "right", "bottom", "top", "back", "front"},
+                                    .moved = flat_layer});
+  const Vec3 u{1, 0.3, 0.2};
+  Solver solver(mesh, {}, {});
+  solver.start([=](const Vec3&) { return u; });
+  const Real empty = solver.advective_dt(0.5);
+  solver.put_solid({.shape = shapes::translate(shapes::sphere(0.3), {0.5, 0.5, 0.4}), .G = 1e-3});
+  EXPECT_EQ(solver.advective_dt(0.5), empty);
+  Real rate = 0;
+  for (Index c = 0; c < mesh.n_owned; ++c) {
+    Real sum = 0;
+    for (const Index f : mesh.cell_faces[c]) sum += std::abs(dot(u, mesh.Sf[f]));
+    if (solver.bodies()[0].alpha[c] > 0) rate = std::max(rate, sum / (2 * mesh.V[c]));
+  }
+  rate = global_max(rate);
+  EXPECT_GT(empty, 0.55 / rate);
+  EXPECT_NEAR(solver.carried_dt(), 2 / rate, 1e-9 / rate) << "half of the step before was 0";
 }
 
 // The first steps of a solid that is put into a flow are short, too.
