@@ -39,8 +39,9 @@ Real Solver::carried_dt() const {
     for (const Index c : body.band.cells())
       rate = std::max(rate, courant_rate(state_.phi, mesh_, c));
     rate = global_max(rate);
-    // body.t + body.dt = t + time_offset dt
-    if (rate > 0) least = std::min(least, (1 / rate - (state_.t - body.t)) / body.time_offset());
+    // body.t + body.dt = t + time_offset dt. That alone would let long and short steps alternate.
+    if (rate > 0)
+      least = std::min({least, 1 / rate, (1 / rate - (state_.t - body.t)) / body.time_offset()});
     if (rate > 0 && body.two_viscosities)
       least = std::min(least, body.two_viscosities->traction.courant_max() / rate);
   }

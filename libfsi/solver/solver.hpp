@@ -92,8 +92,9 @@ class Solver {
   /// Collective. How long the next step may be for what the conditions and the body force give over
   /// time, in a run to `end` (`step_of`, OfPlaceAndTime).
   Real conditions_dt(Real end) const;
-  /// Collective. Largest dt that moves the solids by a Courant number of one at most, in half of
-  /// the last step and half of this. Beside viscous ones: SurfaceTraction::courant_max at most.
+  /// Collective. Largest dt that moves the solids by a Courant number of one at most, in this step
+  /// and in half of the last one and half of this. Beside viscous ones:
+  /// SurfaceTraction::courant_max at most.
   Real carried_dt() const;
   /// Collective. Largest dt in which nothing that moves at a boundary passes more than `courant` of
   /// the cell beside it: what is known of the flow before the first step.
