@@ -186,8 +186,7 @@ void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const In
     const Piece &p = interface.piece[P], &q = interface.piece[N];
     if (!(p.area > 0) && !(q.area > 0)) {
       const Real out = alpha[P] > alpha[N] ? 1 : -1;
-      const bool surface = std::abs(alpha[P] - alpha[N]) > interface_eps;
-      normal[f] = surface ? (out / norm(mesh.Sf[f])) * mesh.Sf[f] : Vec3{};
+      normal[f] = alpha[P] == alpha[N] ? Vec3{} : (out / norm(mesh.Sf[f])) * mesh.Sf[f];
       continue;
     }
     normal[f] = mean(p.n_hat + q.n_hat);

@@ -58,8 +58,8 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
 /// Unit normal m out of the solid at the listed faces, the mean of the planes of both cells; zero
 /// between opposed ones. Without planes it is that of the face if the surface lies in the face,
-/// else zero, also where both cells are full but for rounding. Boundary faces: that of the cell's
-/// plane; on a plane of symmetry the mean with its image.
+/// else zero. Boundary faces: that of the cell's plane; on a plane of symmetry the mean with its
+/// image.
 void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
                  const Mesh& mesh, std::span<const Index> faces,
                  const SymmetryFaces& symmetry = {});
