@@ -304,6 +304,12 @@ TEST(GoodMesh, HashTellsMeshesApart) {
   EXPECT_NE(first, hash(quads(), {"left", "right"}));
 }
 
+// abs() of the least whole number overflows.
+TEST(GoodMesh, AGroupOfTheLeastNumberIsLeftOutToo) {
+  const std::string text = two_groups("1\n1 1 \"left\"\n");
+  EXPECT_EQ(sentence_of(with(text, "7 0 0 0", "7 0 0 0 2 1 0 2 1 -2147483648 0"), {}), "no error");
+}
+
 // A second group without a name, as of all curves, is no name.
 TEST(GoodMesh, AGroupWithoutANameIsLeftOutBesideOneWithAName) {
   EXPECT_EQ(sentence_of(two_groups("1\n1 1 \"left\"\n"), {}), "no error");
