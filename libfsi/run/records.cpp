@@ -181,8 +181,7 @@ Real dissipation(Solver& solver) {
   Sum of_solids;
   for (const Body& body : solver.bodies())
     for (Index c = 0; c < mesh.n_owned; ++c) {
-      const Tensor* own =
-          body.two_viscosities ? body.two_viscosities->traction.own_gradient(c) : nullptr;
+      const Tensor* own = body.traction ? body.traction->own_gradient(c) : nullptr;
       const Real part = body.alpha[c];
       mu[c] += part * ((own != nullptr ? 0 : body.mu) - mu_f);
       if (own != nullptr)

@@ -349,7 +349,7 @@ void put_solids(Solver& solver, const Case& setup) {
                    "triangles and tetrahedra; take log_conformation\n",
                    s.shape_name.c_str());
     constexpr Real most = 50;
-    if (!body.two_viscosities && body.mu > most * solver.physics().mu_f)
+    if (!body.traction && body.mu > most * solver.physics().mu_f)
       std::fprintf(stderr,
                    "fsi: warning: %s: its viscosity is %g times the fluid's; with "
                    "-solid_kinematics left_cauchy_green the friction at the surface is an "

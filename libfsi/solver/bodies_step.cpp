@@ -117,9 +117,8 @@ void Solver::mix_viscosity(FaceField<Real>& mu) {
     flow::mixture_viscosity(mu, *mixed_mu_, physics_.mu_f, physics_.mu_f + 1, weights_, mesh_);
   }
   for (const Body& body : bodies_)
-    if (body.two_viscosities)
-      body.two_viscosities->traction.bound_viscosity(mu, {body.alpha_f, body.normal_f, body.alpha},
-                                                     body.band);
+    if (body.traction)
+      body.traction->bound_viscosity(mu, {body.alpha_f, body.normal_f, body.alpha}, body.band);
   set_wall_parabola();
   if (!modes_.films) return;
   if (!modes_.mu_varies)
@@ -146,8 +145,7 @@ void Solver::add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffnes
   if (!stiff_) return;
   stiff_->assign(kappa);
   for (const Body& body : bodies_)
-    if (body.two_viscosities)
-      body.two_viscosities->traction.add_semi_implicit(*stiff_, kappa, body.alpha_f, body.band);
+    if (body.traction) body.traction->add_semi_implicit(*stiff_, kappa, body.alpha_f, body.band);
   if (!modes_.implicit_convection) return;
   Real rho = physics_.rho;
   for (const Body& body : bodies_) rho = std::max(rho, body.rho);

@@ -53,6 +53,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       alpha_mid(mesh),
       B(mesh),
       alpha_f(mesh),
+      normal(mesh),
+      height(mesh),
       normal_f(mesh),
       lambda(mesh),
       law(solid.law),
@@ -74,11 +76,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       pieces(mesh),
       left_out(mesh),
       specks(static_cast<std::size_t>(mesh.n_owned)) {
-  hold_parts(physics, patches.walls);
+  hold_parts(physics, patches);
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
-  const std::vector<char> passed = on_faces(patches.openings, mesh);
-  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
-    if (passed[f - mesh.n_internal] != 0) at_openings.push_back(mesh.owner[f]);
   const std::vector<char> at_walls = bonded(patches.walls), at_still = bonded(patches.still);
   set_bond(at_walls, at_still);
   set_bond_planes(patches.tight);
@@ -175,15 +174,19 @@ Real Body::bond_kept() const {
   return static_cast<Real>(global_sum(kept)) / static_cast<Real>(bonded_faces);
 }
 
-void Body::hold_parts(const Physics& physics, const std::vector<Patch>& walls) {
+void Body::hold_parts(const Physics& physics, const SolidPatches& patches) {
+  const std::vector<char> passed = on_faces(patches.openings, mesh);
+  for (Index f = mesh.n_internal; f < mesh.n_faces; ++f)
+    if (passed[f - mesh.n_internal] != 0) at_openings.push_back(mesh.owner[f]);
   if (!law.B_itself()) T_of_law.emplace(mesh);
   if (std::holds_alternative<solid::LogConformation>(kinematics) && zone.any()) {
     interface_gradient.emplace(
-        mesh, zone, solid::BoundarySides{.given = on_faces(walls, mesh), .symmetry = mirror});
+        mesh, zone,
+        solid::BoundarySides{.given = on_faces(patches.walls, mesh), .symmetry = mirror});
     kink_profile.emplace(mesh);
   }
   if (extended() && mu != physics.mu_f && physics.mu_f > 0)
-    two_viscosities.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f}, cut);
+    traction.emplace(mesh, weights, G, solid::Viscosities{mu, physics.mu_f}, cut);
   if (weight != Vec3{}) body_force.emplace(mesh, weights, weight);
   if (body_force && rho != physics.rho && weights.uneven) alpha_line.emplace(mesh);
 }
@@ -214,7 +217,7 @@ void Body::update_B() {
   std::visit(
       [&](auto& k) {
         band.rebuild(alpha, k.alpha_min);
-        for (const Index c : last_cells) B[c] = {}, lambda[c] = 0;
+        for (const Index c : last_cells) B[c] = {}, lambda[c] = 0, normal[c] = {};
         if (T_of_law)
           for (const Index c : last_cells) (*T_of_law)[c] = {};
         last_cells = band.cells();
@@ -231,7 +234,9 @@ void Body::update_B() {
   if (extended()) {
     vof::face_fraction(alpha_f, alpha, interface, weights, mesh, band.faces(),
                        reconstruct_scratch.symmetry);
-    vof::face_normal(normal_f, alpha, interface, mesh, band.faces(), reconstruct_scratch.symmetry);
+    vof::cell_plane(normal, height, alpha, interface, mesh, band.cells());
+    mesh.halo.update(normal, band.listed());
+    vof::face_normal(normal_f, normal, mesh, band.faces(), reconstruct_scratch.symmetry);
   } else {
     vof::mean_fraction(alpha_f, alpha, weights, mesh, band.faces());
   }

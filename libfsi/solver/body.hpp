@@ -40,17 +40,6 @@ std::string name_of(const Kinematics& kinematics);
 /// 1e8.
 inline constexpr Real eigenvalue_limit = 1e-4;
 
-/// The parts for a surface between two viscosities.
-struct TwoViscosities {
-  /// Collective. mesh and weights must outlive it.
-  TwoViscosities(const Mesh& mesh, const FaceWeights& weights, Real G, const solid::Viscosities& mu,
-                 const SymmetryFaces& symmetry)
-      : traction(mesh, weights, G, mu, symmetry), normal(mesh), height(mesh) {}
-  solid::SurfaceTraction traction;  ///< the stress at the surface
-  CellField<Vec3> normal;           ///< of the surface in a cell, out of the solid
-  CellField<Real> height;           ///< of the cell's centre above the surface
-};
-
 /// The patches of a mesh, by what they are to a solid; one may be in several lists.
 struct SolidPatches {
   std::vector<Patch> mirrors{};   ///< planes of symmetry, which may cut it
@@ -75,7 +64,7 @@ struct Body {
   /// Errors: Error{input} with other kinematics.
   void set_map(const std::function<Vec3(const Vec3&)>& xi_0);
   /// Makes the parts that the law, the kinematics, the viscosity and the weight need.
-  void hold_parts(const Physics& physics, const std::vector<Patch>& walls);
+  void hold_parts(const Physics& physics, const SolidPatches& patches);
   /// Collective. Finds the planes of the tight patches at which the solid is bonded.
   void set_bond_planes(const std::vector<Patch>& tight);
   /// Collective. Takes from `shape` what the mesh cut off, if planes did so; else sets
@@ -178,7 +167,10 @@ struct Body {
   CellField<Real> alpha_mid;   ///< mean of alpha before and after the last step
   CellField<SymTensor> B;      ///< on the band's cells, zero elsewhere; owned and halo
   FaceField<Real> alpha_f;     ///< part of solid at the band's faces
-  FaceField<Vec3> normal_f;    ///< m of the interface there, zero away from it; where `extended`
+  CellField<Vec3> normal;      ///< m of the surface in the cells at it, zero in the others; where
+                               ///< `extended`; owned and halo
+  CellField<Real> height;      ///< of the centres of these cells above the surface; owned
+  FaceField<Vec3> normal_f;    ///< m at the band's faces, zero away from it; where `extended`
   CellField<Real> lambda;      ///< lambda_B, largest modulus of the law over G; owned and halo
   solid::Law law;              ///< of the material
   std::optional<CellField<SymTensor>> T_of_law;  ///< T, if it is not B itself
@@ -199,7 +191,7 @@ struct Body {
   SymmetryFaces mirror;                                    ///< planes of symmetry
   solid::SemiImplicitElasticity semi_implicit_elasticity;  ///< its implicit share
   std::vector<Real> wave_width;                            ///< of owned cells, for the step's limit
-  std::optional<TwoViscosities> two_viscosities;           ///< if mu is not that of the fluid
+  std::optional<solid::SurfaceTraction> traction;          ///< if mu is not that of the fluid
   std::optional<solid::BodyForce> body_force;              ///< with a weight only
   std::optional<solid::WallFilm> film;                     ///< with log_conformation
   std::vector<Index> bond;  ///< boundary faces of walls at rest that the undeformed solid touches

@@ -32,7 +32,7 @@ std::string elastic(const Body& body) {
 std::string force(const Body& body) {
   std::string what = body.extended() ? "div tau by the part of solid between cell centres"
                                      : "div tau by alpha averaged linearly";
-  if (body.two_viscosities) what += "; traction between two viscosities";
+  if (body.traction) what += "; traction between two viscosities";
   if (body.body_force) what += "; weight and body force of the solid";
   return what;
 }
@@ -47,7 +47,7 @@ OfBody calls_of(const Body& body) {
   calls.force = force(body);
   if (body.semi_implicit()) {
     calls.implicit = "kappa = 0.4 dt G alpha_f lambda or what e needs; b kappa dt u . grad L; e";
-    if (body.two_viscosities) calls.implicit += "; a part of the traction";
+    if (body.traction) calls.implicit += "; a part of the traction";
   }
   return calls;
 }

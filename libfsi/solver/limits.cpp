@@ -42,8 +42,7 @@ Real Solver::carried_dt() const {
     // body.t + body.dt = t + time_offset dt. That alone would let long and short steps alternate.
     if (rate > 0)
       least = std::min({least, 1 / rate, (1 / rate - (state_.t - body.t)) / body.time_offset()});
-    if (rate > 0 && body.two_viscosities)
-      least = std::min(least, body.two_viscosities->traction.courant_max() / rate);
+    if (rate > 0 && body.traction) least = std::min(least, body.traction->courant_max() / rate);
   }
   return least;
 }

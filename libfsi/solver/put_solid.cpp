@@ -224,7 +224,7 @@ void Solver::set_modes(const Body& body) {
   }
   if (body.rho != physics_.rho && !heavy_) heavy_.emplace(mesh_, weights_, physics_.rho);
   if ((heavy_ || body.body_force) && !at_rest_) at_rest_.emplace(AtRest{mesh_});
-  if (body.two_viscosities) {
+  if (body.traction) {
     if (!stiff_) stiff_.emplace(mesh_);
     momentum_.hold_old();
   }

@@ -51,7 +51,7 @@ solid::FlowSnapshot snapshot_of(const Body& body, const CellField<Vec3>& u,
           .weights = body.weights,
           .one_sided = one_sided_of(body),
           .wave_speed = body.wave_speed(),
-          .recovery = body.G / body.mu,
+          .recovery = body.G > 0 ? body.G / body.mu : 0,
           .memory = body.remembers() ? &*body.memory : nullptr};
 }
 
@@ -121,7 +121,7 @@ void transport_elastic(Body& body, CellField<Tensor>& L, const FlowAround& flow)
                                          : snapshot_of(body, flow.u, L, flow);
   snapshot.contact = &contact;
   snapshot.cuts = &cuts;
-  if (body.two_viscosities) snapshot.in_series = body.two_viscosities->traction.in_series();
+  if (body.traction) snapshot.in_series = body.traction->in_series();
   std::visit(
       [&](auto& k) {
         k.mark(body.strain_fraction());
@@ -159,15 +159,11 @@ void add_elastic_force(CellField<Vec3>& force, FaceField<Real>& rhie_chow_source
                                     .film = body.film ? &body.film->faces() : nullptr};
   body.elastic_force.apply(force, rhie_chow_source, elastic, body.weights, flow.pressure, body.band,
                            body.grad);
-  if (body.two_viscosities) {
-    auto& [traction, normal, height] = *body.two_viscosities;
-    vof::cell_plane(normal, height, body.alpha, body.interface, body.mesh, body.band.cells());
-    body.mesh.halo.update(normal, body.band.listed());
-    traction.apply(force, rhie_chow_source,
-                   {flow.u, L, flow.L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal,
-                    height, flow.mu},
-                   flow.pressure, body.band);
-  }
+  if (body.traction)
+    body.traction->apply(force, rhie_chow_source,
+                         {flow.u, L, flow.L_f, body.T(), body.alpha, body.alpha_f, body.normal_f,
+                          body.normal, body.height, flow.mu},
+                         flow.pressure, body.band);
   add_weight(force, rhie_chow_source, body, flow.pressure);
 }
 
@@ -199,8 +195,8 @@ void add_semi_implicit(FaceField<Real>& kappa, FaceField<Real>& stiffness, CellF
                                   .dt = dt,
                                   .kink = !map,
                                   .one_sided = body.interface_gradient.has_value(),
-                                  .normal = map && !body.two_viscosities ? nullptr : &body.normal_f,
-                                  .across = body.two_viscosities ? 0.0 : 2.0,
+                                  .normal = map && !body.traction ? nullptr : &body.normal_f,
+                                  .across = body.traction ? 0.0 : 2.0,
                                   .rho_least = flow.rho_least};
   body.semi_implicit_elasticity.apply(kappa, stiffness, force, terms, body.weights, body.band);
 }

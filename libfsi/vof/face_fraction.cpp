@@ -167,29 +167,19 @@ void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
   }
 }
 
-void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
-                 const Mesh& mesh, std::span<const Index> faces, const SymmetryFaces& symmetry) {
+void face_normal(FaceField<Vec3>& normal_f, const CellField<Vec3>& normal, const Mesh& mesh,
+                 std::span<const Index> faces, const SymmetryFaces& symmetry) {
   constexpr Real opposed = 0.1;
   const auto mean = [](const Vec3& sum) {
     const Real size = norm(sum);
     return size > opposed ? sum / size : Vec3{};
   };
   for (const Index f : faces) {
-    const Index P = mesh.owner[f];
-    if (f >= mesh.n_internal) {
-      const Piece& p = interface.piece[P];
-      const Vec3 n = p.area > 0 ? p.n_hat : Vec3{};
-      normal[f] = symmetry.has(f, mesh) ? mean(n + image(n, mesh.Sf[f] / norm(mesh.Sf[f]))) : n;
-      continue;
-    }
-    const Index N = mesh.neighbour[f];
-    const Piece &p = interface.piece[P], &q = interface.piece[N];
-    if (!(p.area > 0) && !(q.area > 0)) {
-      const Real out = alpha[P] > alpha[N] ? 1 : -1;
-      normal[f] = alpha[P] == alpha[N] ? Vec3{} : (out / norm(mesh.Sf[f])) * mesh.Sf[f];
-      continue;
-    }
-    normal[f] = mean(p.n_hat + q.n_hat);
+    const Vec3& n = normal[mesh.owner[f]];
+    if (f < mesh.n_internal)
+      normal_f[f] = mean(n + normal[mesh.neighbour[f]]);
+    else
+      normal_f[f] = symmetry.has(f, mesh) ? mean(n + image(n, mesh.Sf[f] / norm(mesh.Sf[f]))) : n;
   }
 }
 

@@ -56,12 +56,11 @@ bool touches(Index f, const CellField<Real>& alpha, const Interface& interface, 
 /// alpha_f = (1 - lambda) alpha_P + lambda alpha_N on the listed faces, without the planes.
 void mean_fraction(FaceField<Real>& alpha_f, const CellField<Real>& alpha,
                    const FaceWeights& weights, const Mesh& mesh, std::span<const Index> faces);
-/// Unit normal m out of the solid at the listed faces, the mean of the planes of both cells; zero
-/// between opposed ones. Without planes it is that of the face if the surface lies in the face,
-/// else zero. Boundary faces: that of the cell's plane; on a plane of symmetry the mean with its
-/// image.
-void face_normal(FaceField<Vec3>& normal, const CellField<Real>& alpha, const Interface& interface,
-                 const Mesh& mesh, std::span<const Index> faces,
-                 const SymmetryFaces& symmetry = {});
+/// Unit normal m out of the solid at the listed faces, the mean of the normals of both cells from
+/// `cell_plane`. So a face between a cell at the surface and the next one has the normal too. It is
+/// zero where neither has one, and between opposed ones. Boundary faces: that of the cell; on a
+/// plane of symmetry the mean with its image. normal: owned and halo.
+void face_normal(FaceField<Vec3>& normal_f, const CellField<Vec3>& normal, const Mesh& mesh,
+                 std::span<const Index> faces, const SymmetryFaces& symmetry = {});
 
 }  // namespace fsi::vof

@@ -145,16 +145,19 @@ TEST(ElasticForce, AFilmAtAWall) {
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.n_faces; ++f) faces.push_back(f);
   FaceField<Real> alpha_f(mesh), rhie_chow_source(mesh);
-  FaceField<Vec3> normal(mesh);
+  FaceField<Vec3> normal_f(mesh);
+  CellField<Vec3> normal(mesh);
+  for (Index c = 0; c < mesh.n_cells; ++c) normal[c] = interface.piece[c].n_hat;
   vof::face_fraction(alpha_f, alpha, interface, weights, mesh, faces);
-  vof::face_normal(normal, alpha, interface, mesh, faces);
+  vof::face_normal(normal_f, normal, mesh, faces);
   const CellField<SymTensor> B_c(mesh, B);
   CellField<Vec3> force(mesh);
   CellField<solid::SymGradient> grad(mesh);
   Band band(mesh);
   band.rebuild(alpha, 0.1);
   solid::ElasticForce law(mesh, weights, G);
-  law.apply(force, rhie_chow_source, {B_c, alpha, &alpha_f, &normal}, weights, stencil, band, grad);
+  law.apply(force, rhie_chow_source, {B_c, alpha, &alpha_f, &normal_f}, weights, stencil, band,
+            grad);
   for (const Index c : owned(mesh)) {
     const Real y = mesh.C[c].y;
     EXPECT_NEAR(force[c].x, y < 0.125 ? 0.5 * G * B.xy * 8 : 0, 1e-12);

@@ -76,17 +76,14 @@ Real left_over(Real y_0, const solid::Viscosities& mu, Real k, Real wave = 0,
   flow::viscous_compact(visc, mu_f, u, u_b, walls, weights, mesh);
   flow::viscous_oblique(visc, mu_f, L_f, walls, weights, mesh);
   flow::viscous_transposed(visc, mu_f, mu.fluid, L, walls, mesh);
-  CellField<Vec3> normal(mesh);
-  CellField<Real> height(mesh);
-  vof::cell_plane(normal, height, body.alpha, body.interface, mesh, body.band.cells());
   if (elastic.G > 0)
     body.elastic_force.apply(force, rhie_chow_source,
                              {body.T(), body.alpha, &body.alpha_f, &body.normal_f}, weights, of_p,
                              body.band, body.grad);
-  traction.apply(
-      force, rhie_chow_source,
-      {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, normal, height, mu_f}, of_p,
-      body.band);
+  traction.apply(force, rhie_chow_source,
+                 {u, L, L_f, body.T(), body.alpha, body.alpha_f, body.normal_f, body.normal,
+                  body.height, mu_f},
+                 of_p, body.band);
   CellField<Real> s(mesh);
   for (Index c = 0; c < mesh.n_cells; ++c)
     s[c] = (tau.yy - 2 * k * (mu.solid - mu.fluid)) * body.alpha[c];

@@ -92,21 +92,44 @@ TEST(FaceFraction, FilmAtAWall) {
     EXPECT_EQ(touches(f, s.alpha, s.interface, s.mesh), s.alpha[s.mesh.owner[f]] == 1);
 }
 
-// Between planes their own normal; where the surface lies in a face, that of the face; elsewhere
-// none.
-TEST(FaceNormal, OfThePlanesOrOfTheFace) {
-  HalfSpace s({.n = {8, 8, 0}}, {1, 0.6, 0}, {0.5, 0.5, 0});
-  std::vector<Index> faces;
+// Where the surface lies in faces, the faces of the two rows of cells at it have its normal, and
+// no other face has one, also where cells are full or empty but for rounding.
+TEST(FaceNormal, OfTheCellsAtTheSurface) {
+  HalfSpace s({.n = {8, 8, 0}}, {0, 1, 0}, {0, 0.5, 0});
+  std::vector<Index> faces, cells;
   for (Index f = 0; f < s.mesh.n_faces; ++f) faces.push_back(f);
-  FaceField<Vec3> normal(s.mesh);
-  face_normal(normal, s.alpha, s.interface, s.mesh, faces);
-  for (Index f = 0; f < s.mesh.n_internal; ++f) EXPECT_LE(norm(normal[f] - s.n), 1e-14);
-  for (Index c = 0; c < s.mesh.n_cells; ++c) s.interface.piece[c] = {};
-  face_normal(normal, s.alpha, s.interface, s.mesh, faces);
-  for (Index f = 0; f < s.mesh.n_internal; ++f) {
-    const bool between = s.alpha[s.mesh.owner[f]] != s.alpha[s.mesh.neighbour[f]];
-    const Vec3 n = between ? s.mesh.Sf[f] / norm(s.mesh.Sf[f]) : Vec3{};
-    EXPECT_LE(norm(normal[f] - n), 1e-14);
+  for (Index c = 0; c < s.mesh.n_cells; ++c) {
+    if (c < s.mesh.n_owned) cells.push_back(c);
+    s.interface.piece[c] = {};
+    if (c % 2 == 0) s.alpha[c] += s.alpha[c] > 0.5 ? -1e-10 : 1e-10;
+  }
+  FaceField<Vec3> normal_f(s.mesh);
+  CellField<Vec3> normal(s.mesh);
+  CellField<Real> height(s.mesh);
+  cell_plane(normal, height, s.alpha, s.interface, s.mesh, cells);
+  s.mesh.halo.update(normal);
+  face_normal(normal_f, normal, s.mesh, faces);
+  const auto beside = [&](Index c) { return std::abs(s.mesh.C[c].y - 0.5) < 1.0 / 8; };
+  for (Index f = 0; f < s.mesh.n_faces; ++f) {
+    const bool near =
+        beside(s.mesh.owner[f]) || (f < s.mesh.n_internal && beside(s.mesh.neighbour[f]));
+    EXPECT_LE(norm(normal_f[f] - (near ? s.n : Vec3{})), 1e-14);
+  }
+}
+
+// Between opposed normals there is none.
+TEST(FaceNormal, NoneBetweenOpposedOnes) {
+  const Mesh mesh = test::read_box({.n = {2, 2, 0}});
+  CellField<Vec3> normal(mesh);
+  for (Index c = 0; c < mesh.n_cells; ++c) normal[c] = {0, mesh.C[c].y > 0.5 ? 1.0 : -1.0, 0};
+  std::vector<Index> faces;
+  for (Index f = 0; f < mesh.n_internal; ++f) faces.push_back(f);
+  FaceField<Vec3> normal_f(mesh);
+  face_normal(normal_f, normal, mesh, faces);
+  for (const Index f : faces) {
+    const Vec3& n = normal[mesh.owner[f]];
+    const bool opposed = std::abs(mesh.Sf[f].y) > 0;
+    EXPECT_EQ(norm(normal_f[f] - (opposed ? Vec3{} : n)), 0);
   }
 }
 
