@@ -160,6 +160,7 @@ void add_map(std::vector<Entry>& row, const Soundness& soundness, const Body& bo
   row.push_back({"map_det_max", soundness.map_det_max});
   row.push_back({"shape_energy", soundness.shape_energy, Course::energy});
   row.push_back({"shape_moved", body.shape_moved, Course::step});
+  row.push_back({"volume_returned", body.volume_returned});
 }
 
 /// Number of a limit in flow.csv.

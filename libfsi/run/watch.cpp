@@ -280,6 +280,18 @@ void Watch::films(std::size_t i, const Solver& solver) {
   }
 }
 
+void Watch::crumbs(std::size_t i, const Solver& solver) {
+  constexpr Real least = 1e-3;
+  const Body& body = solver.bodies()[i];
+  const Real part = body.volume_returned / body.filled.volume;
+  if (part < least || said_[i].crumbled) return;
+  said_[i].crumbled = true;
+  say("notice", print("at t = %.4g %.2g %% of the ", solver.state().t, 100 * part) + name_of(body) +
+                    " had come off it, and was taken back to its surface (column " +
+                    "volume_returned of " + table_of(body) +
+                    "): the mesh is coarse for the film at a wall, or for an edge");
+}
+
 void Watch::map(std::size_t i, const Solver& solver, const Soundness& sound) {
   constexpr Real least = 0.5, most = 2;  // there the map is not trusted at all
   const Body& body = solver.bodies()[i];
@@ -314,6 +326,7 @@ void Watch::strain(std::size_t i, const Solver& solver, const Soundness& sound,
   }
   bond(i, solver, sound);
   films(i, solver);
+  crumbs(i, solver);
   map(i, solver, sound);
   constexpr Real apart = 0.5;      // of the larger
   constexpr Real of_solid = 1e-3;  // of G times the volume

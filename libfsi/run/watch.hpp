@@ -77,11 +77,12 @@ class Watch {
  private:
   struct Said {
     bool leaving = false, left = false, strained = false, torn = false, forgetful = false,
-         off = false, unmapped = false, sliding = false, back = false;
+         off = false, unmapped = false, sliding = false, back = false, crumbled = false;
     int pieces = -1;  // at first
     int agreed = 0;   // values in a row in which strain and shape belong to each other
   };
   void bond(std::size_t body, const Solver& solver, const Soundness& sound);
+  void crumbs(std::size_t body, const Solver& solver);
   void map(std::size_t body, const Solver& solver, const Soundness& sound);
   /// Collective.
   void films(std::size_t body, const Solver& solver);

@@ -103,6 +103,9 @@ class ReferenceMap {
   bool one_sided(Index c) const { return one_sided_[c] != 0; }
   /// grad xihat, where it is set; owned and halo.
   const CellField<Tensor>& slope() const { return slope_; }
+  /// alpha of the last `mark` in the cells where xihat was set, else 0. The map in the rings comes
+  /// from those of at least alpha_known. Owned and halo.
+  const CellField<Real>& filled() const { return filled_; }
   /// Owned cells where d is set: the solid's and three rings around them.
   std::span<const Index> cells() const { return extension_.rings().all(); }
   /// J = det grad xi of a cell, which is 1 without an error of volume.

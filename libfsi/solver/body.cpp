@@ -77,6 +77,8 @@ Body::Body(const Mesh& mesh_, const FaceWeights& weights_, const Solid& solid,
       left_out(mesh),
       specks(static_cast<std::size_t>(mesh.n_owned)) {
   hold_parts(physics, patches);
+  pieces.find(alpha);
+  one_piece = !pieces.several();
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch, planes());
   const std::vector<char> at_walls = bonded(patches.walls), at_still = bonded(patches.still);
   set_bond(at_walls, at_still);
@@ -245,29 +247,46 @@ void Body::update_B() {
   mesh.halo.update(lambda, band.listed());
 }
 
-void Body::hold_shape() {
-  if (!held || gone != 0) return;
+void Body::find_strays() {
   const solid::ReferenceMap& m = *map();
   // Around a crumb that was torn off the map tells that the solid goes on. There the rule would
   // build the whole solid anew.
-  pieces.find(alpha);
-  if (pieces.several()) pieces.mark_crumbs(left_out, alpha, solid::Rings::count);
-  trust.clear();
-  for (const Index c : m.cells())
-    trust.push_back(pieces.several() && left_out[c] > 0 ? 0 : m.trust(c));
-  const vof::ShapeMap shape_map{.shape = shape,
-                                .d = m.d,
-                                .gradient = m.slope(),
-                                .cells = m.cells(),
-                                .weight = trust,
-                                .bond = bond_planes ? &*bond_planes : nullptr};
+  pieces.find(m.filled());
+  const bool several = pieces.several();
+  if (several) pieces.mark_crumbs(left_out, m.filled(), solid::Rings::count);
+  const auto of_piece = [&](Index n) { return alpha[n] >= solid::alpha_known && left_out[n] == 0; };
+  trust.clear(), strays.clear();
+  for (const Index c : m.cells()) {
+    const bool at_crumb = several && left_out[c] > 0;
+    trust.push_back(at_crumb ? 0 : m.trust(c));
+    if (one_piece && at_crumb && alpha[c] > 0 &&
+        std::ranges::none_of(mesh.cell_neighbours[c], of_piece))
+      strays.push_back(c);
+  }
+  for (const Index c : band.cells())
+    if (one_piece && alpha[c] > 0 && m.is_set[c] == 0) strays.push_back(c);
+}
+
+void Body::hold_shape() {
+  if (!held || gone != 0) return;
+  const solid::ReferenceMap& m = *map();
+  find_strays();
+  vof::ShapeMap shape_map{.shape = shape,
+                          .d = m.d,
+                          .gradient = m.slope(),
+                          .cells = m.cells(),
+                          .weight = trust,
+                          .bond = bond_planes ? &*bond_planes : nullptr};
   // It would do so where an opening or the mesh has cut the solid, too.
   if (volume_out > rounding_out * filled.volume || cut_by_mesh) {
     vof::mark_cut(left_out, alpha, shape_map, mesh, solid::Rings::count, at_openings);
     for (std::size_t i = 0; i < trust.size(); ++i)
       if (left_out[m.cells()[i]] > 0) trust[i] = 0;
+    std::erase_if(strays, [&](Index c) { return left_out[c] > 0; });
   }
-  shape_moved = vof::hold_shape(alpha, shape_map, mesh, hold_scratch);
+  shape_map.strays = strays;
+  const vof::Held done = vof::hold_shape(alpha, shape_map, mesh, hold_scratch);
+  shape_moved = done.moved, volume_returned += done.returned;
   vof::reconstruct(interface, alpha, mesh, reconstruct_scratch);
 }
 
@@ -319,6 +338,7 @@ void Body::list(io::Snapshot& snapshot) {
   snapshot.add(of + "solid_volume_out", &volume_out);
   snapshot.add(of + "solid_gone", &gone);
   snapshot.add(of + "solid_residue", &residue);
+  snapshot.add_optional(of + "solid_volume_returned", &volume_returned);
   snapshot.add(of + "solid_strain_rate", &strain.rate);
   if (auto* k = std::get_if<solid::LeftCauchyGreen>(&kinematics)) snapshot.add(of + "Bt", k->Bt);
   if (auto* k = std::get_if<solid::LogConformation>(&kinematics)) snapshot.add(of + "psi", k->psi);

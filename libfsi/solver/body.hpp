@@ -88,6 +88,9 @@ struct Body {
   /// Collective. Moves alpha towards the shape of the memory or of the map kinematics, if there is
   /// one; renews the planes.
   void hold_shape();
+  /// Sets `trust` in the map's cells and lists the strays. They are crumbs and cells beyond the
+  /// map, away from all cells of larger pieces. A solid that had several pieces has none.
+  void find_strays();
   /// Collective, after `advect`. Counts the solid that left through the boundary. Once some has
   /// left, it takes out specks: cells with less than a hundredth of solid in themselves and all
   /// around them. It takes out the rest, the residue, if that is less than a hundredth of the
@@ -213,10 +216,13 @@ struct Body {
   std::optional<vof::BondPlanes> bond_planes;    ///< of a solid that is held and bonded
   Pieces pieces;                                 ///< at the last hold_shape
   std::vector<Index> at_openings;                ///< owned cells
-  bool cut_by_mesh = false;  ///< whether `shape` tells of a part that the mesh cut off
-  CellField<Real> left_out;  ///< scratch of hold_shape
-  std::vector<Real> trust;   ///< scratch of hold_shape
-  Real shape_moved = 0;      ///< volume that the last hold_shape moved, in parts of the solid's
+  bool cut_by_mesh = false;   ///< whether `shape` tells of a part that the mesh cut off
+  CellField<Real> left_out;   ///< scratch of hold_shape
+  std::vector<Real> trust;    ///< scratch of hold_shape
+  bool one_piece = false;     ///< whether the undeformed solid is in one piece
+  std::vector<Index> strays;  ///< scratch of hold_shape
+  Real shape_moved = 0;       ///< volume that the last hold_shape moved, in parts of the solid's
+  Real volume_returned = 0;   ///< volume that came off and was taken back, in all
   std::vector<Index> last_cells;  ///< where B was set
   vof::AdvectReport advected;     ///< of the last step
   int interface_parts = 1;        ///< into which the last step was divided for the interface

@@ -85,6 +85,15 @@ void list_planes(const ShapeMap& map, const CellField<Real>& alpha, const Mesh& 
   }
 }
 
+/// A plane below which there is nothing, for each stray.
+void list_strays(std::span<const Index> strays, HoldScratch& s) {
+  constexpr Real nothing = -0.25 * std::numeric_limits<Real>::max();
+  for (const Index c : strays) {
+    s.cells.push_back(c), s.weight.push_back(1);
+    s.planes.push_back({Vec3{1, 0, 0}, nothing});
+  }
+}
+
 /// Sets `change` to the change by the planes, moved outward by shift. totals: of change V and of
 /// area.
 void set_changes(std::array<Real, 2>& totals, const CellField<Real>& alpha, const Mesh& mesh,
@@ -175,36 +184,43 @@ void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMa
   spread_marks(near, rings, mesh, [](Index) { return true; });
 }
 
-Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
+Held hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh, HoldScratch& s) {
   list_planes(map, alpha, mesh, s);
-  Sum solid, moved;
+  const std::size_t first_stray = s.cells.size();
+  list_strays(map.strays, s);
+  Sum solid;
   for (const Index c : map.cells) solid.add(mesh.V[c] * alpha[c]);
   const Real volume = solid.total();
   constexpr Real left = 1e-5;  // of the volume: more cannot go to the cut cells
   if (!(std::abs(set_change_of_no_volume(alpha, volume, mesh, s)) <= left * volume))
-    return 0;               // no shift keeps the volume: the map gives no shape
-  std::array<Sum, 2> sums;  // volume added, weight of the cells that give it back
+    return {};  // no shift keeps the volume: the map gives no shape
+  // volume added, weight of the cells that give it back, volume moved, and that of the strays
+  std::array<Sum, 4> sums;
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     const Index c = s.cells[i];
     const Real a = alpha[c] + s.change[i];
     constexpr Real wisp = 1e-9;
     const Real to = a < wisp ? 0 : a > 1 - wisp ? 1 : a;
     sums[0].add((to - alpha[c]) * mesh.V[c]);
-    sums[1].add(mesh.V[c] * to * (1 - to));
-    moved.add(std::abs(to - alpha[c]) * mesh.V[c]);
+    if (i < first_stray) sums[1].add(mesh.V[c] * to * (1 - to));
+    sums[2].add(std::abs(to - alpha[c]) * mesh.V[c]);
+    if (i >= first_stray) sums[3].add((alpha[c] - to) * mesh.V[c]);
     s.change[i] = alpha[c];
     alpha[c] = to;
   }
-  std::array<Real, 3> totals{};
-  Sum::totals(totals, std::array{sums[0], sums[1], moved});
+  std::array<Real, 4> totals{};
+  Sum::totals(totals, sums);
   const bool whole = std::abs(totals[0]) <= totals[1];  // of the volume can be given back
   const Real factor = totals[1] > 0 ? -totals[0] / totals[1] : 0;
   for (std::size_t i = 0; i < s.cells.size(); ++i) {
     Real& a = alpha[s.cells[i]];
-    a = whole ? a + factor * a * (1 - a) : s.change[i];
+    if (!whole)
+      a = s.change[i];
+    else if (i < first_stray)
+      a += factor * a * (1 - a);
   }
   mesh.halo.update(alpha);
-  return whole && volume > 0 ? totals[2] / volume : 0;
+  return whole && volume > 0 ? Held{totals[2] / volume, totals[3]} : Held{};
 }
 
 }  // namespace fsi::vof

@@ -26,7 +26,14 @@ struct ShapeMap {
   const CellField<Tensor>& gradient;  ///< of xihat
   std::span<const Index> cells;       ///< owned, where xihat is set
   std::span<const Real> weight;       ///< [cells] the trust vartheta in the map, 0 to 1
-  const BondPlanes* bond = nullptr;   ///< of the walls to which the solid is bonded
+  std::span<const Index> strays{};   ///< owned, with solid that came off; in `cells` with no weight
+  const BondPlanes* bond = nullptr;  ///< of the walls to which the solid is bonded
+};
+
+/// What `hold_shape` did.
+struct Held {
+  Real moved = 0;     ///< volume that moved, in parts of the solid's
+  Real returned = 0;  ///< volume that came back from the strays
 };
 
 /// Scratch of `hold_shape`; grows with the interface.
@@ -62,8 +69,11 @@ void mark_cut(CellField<Real>& near, const CellField<Real>& alpha, const ShapeMa
 /// nearest point of shape(X) = 0 lies in a plane of map.bond stay as they are. In a call alpha
 /// changes by at most 0.05 times the weight. The one number shift keeps the sum of alpha V to
 /// rounding. If no shift does so to 1e-5 of it, nothing is changed. alpha: owned and halo, before
-/// and after. Returns the volume that moved, in parts of the solid's; 0 if nothing was changed.
-Real hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
+/// and after. Returns zeros if nothing was changed.
+///
+/// A solid does not tear. What advection leaves behind as a stray is outside of the shape, so its
+/// cells empty by 0.05 in a call, and `shift` brings the volume back to the surface of the solid.
+Held hold_shape(CellField<Real>& alpha, const ShapeMap& map, const Mesh& mesh,
                 HoldScratch& scratch);
 
 }  // namespace fsi::vof

@@ -21,7 +21,7 @@ PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M
 
 COLUMNS = {  # of the csv files, apart from those with a panel
     "pressure_drop": "pressure", "pressure_span": "pressure", "mean_velocity": "velocity", "work": "energy",
-    "dissipation": "energy / time", "volume": "volume", "volume_out": "volume", "area": "area",
+    "dissipation": "energy / time", "volume": "volume", "volume_out": "volume", "volume_returned": "volume", "area": "area",
     "turned": "degrees", "long_angle": "degrees", "taylor_angle": "degrees", "shape_energy": "energy",
 }
 

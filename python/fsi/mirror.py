@@ -16,7 +16,7 @@ TURNED = {  # the corners of a cell in an image, so that its faces look outward 
 }
 TENSOR = ("xx", "yy", "zz", "xy", "yz", "xz")  # the order of the files
 # Columns that add up over the halves; those of flow.csv for each opening begin with flow_rate.
-ADDED = ("volume", "volume_out", "area", "elastic_energy", "shape_energy", "kinetic_energy", "dissipation", "work",
+ADDED = ("volume", "volume_out", "volume_returned", "area", "elastic_energy", "shape_energy", "kinetic_energy", "dissipation", "work",
          "difference")
 
 

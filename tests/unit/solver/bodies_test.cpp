@@ -322,8 +322,9 @@ TEST(Bodies, OneThatIsPutInLaterPushesWhatIsBesideIt) {
 }
 
 // A crumb torn off a disc, one cell with the map of a place at the surface, does not take volume
-// from the disc and grow to a second one. A solid that is in two pieces from the start keeps both.
-TEST(Bodies, BuildNoSolidAroundACrumb) {
+// from the disc and grow to a second one, but goes back to it. So does a wisp where there is no
+// map. A solid that is in pieces from the start keeps them, also one as small as a crumb.
+TEST(Bodies, TakeBackACrumb) {
   for (const bool simplex : {false, true}) {
     const Mesh mesh = test::read_box({.n = {40, 40, 0}, .simplex = simplex});
     const FaceWeights weights(mesh);
@@ -341,10 +342,16 @@ TEST(Bodies, BuildNoSolidAroundACrumb) {
         torn.memory->set_map(c, mesh.C[c] - Vec3{0.27, 0, 0});
       }
     torn.resume();
-    const Real before = right(torn);
+    const auto wisp = [](const Vec3& x) { return norm(x - Vec3{0.91, 0.11, 0}) < 0.01; };
+    for (Index c = 0; c < mesh.n_cells; ++c)
+      if (wisp(mesh.C[c])) torn.alpha[c] = 0.01;
+    torn.resume();
+    const Real before = right(torn), volume = place(torn).volume;
     ASSERT_GT(before, 0);
     for (int i = 0; i < 30; ++i) torn.hold_shape();
-    EXPECT_LE(right(torn), before * (1 + 1e-12)) << simplex;
+    EXPECT_EQ(right(torn), 0) << simplex;
+    EXPECT_NEAR(torn.volume_returned, before, 1e-12 * before);
+    EXPECT_NEAR(place(torn).volume / volume, 1, 1e-12);
 
     const shapes::Shape other = shapes::translate(shapes::sphere(0.1), {0.76, 0.5, 0});
     Body two(mesh, weights, {.shape = shapes::unite({one, other}), .G = 1}, {});
@@ -354,6 +361,14 @@ TEST(Bodies, BuildNoSolidAroundACrumb) {
     two.resume();
     for (int i = 0; i < 60; ++i) two.hold_shape();
     EXPECT_GT(right(two), 0.9 * whole) << simplex;
+
+    const shapes::Shape grain = shapes::translate(shapes::box({0.03, 0.03, 1}), {0.76, 0.51, 0});
+    Body both(mesh, weights, {.shape = shapes::unite({one, grain}), .G = 1}, {});
+    const Real small = right(both);
+    ASSERT_GT(small, 0);
+    for (int i = 0; i < 30; ++i) both.hold_shape();
+    EXPECT_NEAR(right(both), small, 0.2 * small) << simplex;
+    EXPECT_EQ(both.volume_returned, 0);
   }
 }
 

@@ -28,9 +28,18 @@ struct Mapped {
     std::iota(cells.begin(), cells.end(), 0);
   }
   Real hold(CellField<Real>& alpha, const shapes::Shape& shape) {
-    return vof::hold_shape(
-        alpha, {.shape = shape, .d = d, .gradient = gradient, .cells = cells, .weight = weight},
-        mesh, scratch);
+    return hold(alpha, shape, {}).moved;
+  }
+  vof::Held hold(CellField<Real>& alpha, const shapes::Shape& shape,
+                 std::span<const Index> strays) {
+    return vof::hold_shape(alpha,
+                           {.shape = shape,
+                            .d = d,
+                            .gradient = gradient,
+                            .cells = cells,
+                            .weight = weight,
+                            .strays = strays},
+                           mesh, scratch);
   }
 
   Mesh mesh;
@@ -96,6 +105,37 @@ TEST(HeldShape, BringsASolidBackToItsShape) {
         last = end.shape;
       }
     }
+}
+
+// Two cells that came off a disc, a full one and one with a little, go back to its surface.
+TEST(HeldShape, TakesBackWhatCameOff) {
+  for (const bool simplex : {false, true}) {
+    Mapped map(box(24, 2, simplex), {});
+    const auto shape = round_solid({0.5, 0.5, 0});
+    CellField<Real> alpha(map.mesh), start(map.mesh);
+    vof::fill(alpha, map.mesh, shape);
+    start.assign(alpha);
+    Sum off;
+    std::vector<Index> strays;
+    for (Index c = 0; c < map.mesh.n_cells; ++c) {
+      const bool full = norm(map.mesh.C[c] - Vec3{0.1, 0.1, 0}) < 0.02;
+      if (!full && norm(map.mesh.C[c] - Vec3{0.9, 0.8, 0}) > 0.02) continue;
+      alpha[c] = full ? 1 : 1e-4;
+      if (c >= map.mesh.n_owned) continue;
+      strays.push_back(c), map.weight[c] = 0;
+      off.add(alpha[c] * map.mesh.V[c]);
+    }
+    const Real volume = apart(alpha, start, map.mesh).volume;
+    Real returned = 0;
+    for (int i = 0; i < 30; ++i) returned += map.hold(alpha, shape, strays).returned;
+    for (const Index c : strays) EXPECT_EQ(alpha[c], 0);
+    const Real all = off.total();
+    EXPECT_GT(all, 0);
+    EXPECT_NEAR(returned, all, 1e-12 * all);
+    const Apart end = apart(alpha, start, map.mesh);
+    EXPECT_NEAR(end.volume, volume, 1e-13);
+    EXPECT_LT(end.shape, 2 * volume);  // all around the disc
+  }
 }
 
 // A solid far from its shape, most of whose cells ask for more than a step gives them, comes back
