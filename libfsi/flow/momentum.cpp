@@ -54,7 +54,7 @@ Momentum::Momentum(const Mesh& mesh, const FaceWeights& weights,
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index b = f - mesh.n_internal;
-      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Vec3 n = mesh.normal(f);
       if (fixes_pressure(conditions[i])) implicit_[b] = {};
       if (!lets_slip(conditions[i])) continue;
       implicit_[b] = {n.x * n.x, n.y * n.y, n.z * n.z};

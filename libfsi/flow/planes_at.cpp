@@ -28,7 +28,7 @@ std::vector<geometry::Mirror> faces_at(const Patch& opening, const std::vector<P
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f)
       if (std::ranges::any_of(mesh.face_points[f], meets))
-        found.push_back({mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])});
+        found.push_back({mesh.Cf[f], mesh.normal(f)});
   return found;
 }
 

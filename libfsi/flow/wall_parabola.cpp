@@ -17,7 +17,7 @@ CellField<Vec3> wall_normals(const Mesh& mesh, const std::vector<Condition>& con
     if (!std::holds_alternative<Wall>(conditions[i])) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index P = mesh.owner[f];
-      normal[P] = ++faces[P] == 1 ? mesh.Sf[f] / norm(mesh.Sf[f]) : Vec3{};
+      normal[P] = ++faces[P] == 1 ? mesh.normal(f) : Vec3{};
     }
   }
   mesh.halo.update(normal);
@@ -27,7 +27,7 @@ CellField<Vec3> wall_normals(const Mesh& mesh, const std::vector<Condition>& con
 /// 1 on a flat wall, falling to 0 as the normals around turn. An edge is not a curved wall.
 Real flatness(const CellField<Vec3>& normal, Index f, const Mesh& mesh) {
   constexpr Real curved = 0.02, edge = 0.7;  // radian; cosine
-  const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+  const Vec3 n = mesh.normal(f);
   Real turn = 0;
   for (const Index c : mesh.cell_neighbours[mesh.owner[f]])
     if (dot(normal[c], n) > edge) turn = std::max(turn, norm(normal[c] - n));
@@ -56,14 +56,14 @@ WallParabola::WallParabola(const Mesh& mesh, const std::vector<Condition>& condi
 void WallParabola::add_row(Index f, const GradientStencil& stencil, const std::vector<char>& slips,
                            Real flatness) {
   const Index P = mesh_.owner[f];
-  const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]), &d = mesh_.d[f];
+  const Vec3 n = mesh_.normal(f), &d = mesh_.d[f];
   const auto q = [&](const Vec3& from_P) { return std::pow(dot(n, from_P - d), 2); };
   const Real q_P = q({});
   Real rise = 0;
   std::vector<Term> row;
   for (const Index k : mesh_.cell_faces[P]) {
     const Index b = k - mesh_.n_internal;
-    const Vec3 n_k = mesh_.Sf[k] / norm(mesh_.Sf[k]);
+    const Vec3 n_k = mesh_.normal(k);
     if (b >= 0 && dot(n_k, n) < -0.5) return;  // a single cell between two walls
     const Real weight = dot(stencil.weight(k, mesh_.owner[k] == P), d);
     if (weight == 0) continue;

@@ -149,7 +149,7 @@ Real curvature(const Patch& patch, const Mesh& mesh) {
   std::map<Index, std::vector<Vec3>> around;  // a point: the normals there
   Real most = 0;
   for (Index f = patch.begin; f < patch.end; ++f) {
-    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    const Vec3 n = mesh.normal(f);
     for (const Index p : mesh.face_points[f]) {
       std::vector<Vec3>& there = around[mesh.vertex[p]];
       for (const Vec3& other : there) {

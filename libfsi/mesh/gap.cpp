@@ -49,7 +49,7 @@ std::vector<Ray> rays_from(const Mesh& mesh, const std::vector<Side>& sides) {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i] != Side::wall) continue;
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
-      const Vec3 inward = -mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Vec3 inward = -mesh.normal(f);
       const GlobalIndex id = mesh.global_id[mesh.owner[f]];
       rays.push_back({.x = mesh.Cf[f],
                       .along = inward,
@@ -113,7 +113,7 @@ Fate follow(const Mesh& mesh, Index c, const std::vector<Side>& sides, Real best
       const auto patch = std::ranges::find_if(
           mesh.patches, [&](const Patch& p) { return f >= p.begin && f < p.end; });
       ray.to = static_cast<std::int32_t>(patch - mesh.patches.begin());
-      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Vec3 n = mesh.normal(f);
       const Side side = sides[static_cast<std::size_t>(ray.to)];
       if (side != Side::mirror)
         return side == Side::wall && dot(ray.along, n) > std::sqrt(0.5) ? Fate::arrived

@@ -95,6 +95,8 @@ struct Mesh {
   /// The kind of a cell.
   CellType type(Index c) const { return type_of(dim, cell_points[c].size()); }
 
+  /// Unit normal of face f, from P to N or outward.
+  Vec3 normal(Index f) const { return Sf[f] / norm(Sf[f]); }
   /// Corner i of face f as seen from cell c (its owner, or its neighbour across a period).
   Vec3 corner(Index f, Index i, Index c) const {
     const Vec3 x = points[face_points.index[face_points.offset[f] + i]];

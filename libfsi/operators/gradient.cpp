@@ -92,7 +92,7 @@ GradientStencil::GradientStencil(const Mesh& mesh, const FaceWeights& weights_,
   for (std::size_t i = 0; i < mesh.patches.size(); ++i)
     for (Index f = mesh.patches[i].begin; f < mesh.patches[i].end; ++f) {
       const Index P = mesh.owner[f];
-      const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f], n = mesh.Sf[f] / norm(mesh.Sf[f]),
+      const Vec3 g0 = (1 / mesh.V[P]) * mesh.Sf[f], n = mesh.normal(f),
                  foot = dot(mesh.d[f], n) * n;
       given[f - mesh.n_internal] = has_value[i] ? 1 : 0;
       mirror[f - mesh.n_internal] = !mirrors.empty() && mirrors[i] ? 1 : 0;

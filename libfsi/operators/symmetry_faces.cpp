@@ -29,7 +29,7 @@ struct PlanesOfCells {
     for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
       const Index P = mesh.owner[f];
       if (faces[f - mesh.n_internal] == 0 || count[P] >= mesh.dim) continue;
-      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Vec3 n = mesh.normal(f);
       const Vec3 row{count[P] == 0 ? 1.0 : 0, count[P] == 1 ? 1.0 : 0, count[P] == 2 ? 1.0 : 0};
       normals[P] += outer(row, n);
       heights[P] += dot(n, mesh.Cf[f]) * row;
@@ -62,7 +62,7 @@ std::vector<Index> vertices_on(const Mirror& plane, const std::vector<char>& fac
     if (holds(plane, mesh.points[p], size)) on.push_back(mesh.vertex[p]);
   for (const Index f : mesh.cell_faces[c]) {
     if (f < mesh.n_internal || faces[f - mesh.n_internal] == 0) continue;
-    const Mirror own{mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])};
+    const Mirror own{mesh.Cf[f], mesh.normal(f)};
     if (!parallel(plane, own) || !holds(plane, own.x, size)) continue;
     for (const Index p : mesh.face_points[f]) on.push_back(mesh.vertex[p]);
   }
@@ -122,7 +122,7 @@ SymmetryFaces::SymmetryFaces(std::vector<char> faces, const Mesh& mesh) {
     std::vector<Mirror> planes;
     for (const Index f : mesh.cell_faces[c])
       if (f >= mesh.n_internal && lists.is[f - mesh.n_internal] != 0)
-        add_new(planes, {mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])}, cell_size(mesh, c));
+        add_new(planes, {mesh.Cf[f], mesh.normal(f)}, cell_size(mesh, c));
     for (const Index p : mesh.cell_points[c]) {
       const auto at = through.find(mesh.vertex[p]);
       if (at == through.end() || !at_right_angles(at->second)) continue;

@@ -235,7 +235,7 @@ PatchFigures patch_figures(const Mesh& mesh, const Patch& patch) {
     if (std::abs(p.normal[k]) < rounding) p.normal[k] = 0;
   Real sine = 0, cosine = 1, away = 0;
   for (Index f = patch.begin; f < patch.end; ++f) {
-    const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    const Vec3 n = mesh.normal(f);
     cosine = std::min(cosine, dot(n, p.normal)), sine = std::max(sine, norm(cross(n, p.normal)));
     away = std::max(away, std::abs(dot(mesh.Cf[f] - middle, p.normal)));
   }

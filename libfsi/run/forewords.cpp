@@ -122,7 +122,7 @@ Real lean_at_planes(const shapes::Shape& shape, const std::vector<char>& faces, 
   Real most = 0;
   for (Index f = mesh.n_internal; f < mesh.n_faces; ++f) {
     if (faces[f - mesh.n_internal] == 0) continue;
-    const Vec3 x = mesh.Cf[f], n = mesh.Sf[f] / norm(mesh.Sf[f]);
+    const Vec3 x = mesh.Cf[f], n = mesh.normal(f);
     const Real area = norm(mesh.Sf[f]), width = mesh.dim == 2 ? area : std::sqrt(area);
     if (std::abs(shape(x)) > width) continue;
     const auto slope = [&](const Vec3& at, const Vec3& e) {

@@ -107,7 +107,7 @@ Tensor ReferenceMap::gradient(Index c) const {
     } else if (symmetry.has(f, mesh_)) {
       // xihat - (xihat . n) n is the value at the foot of the centre on the plane, half way to the
       // image.
-      const Vec3 normal = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+      const Vec3 normal = mesh_.normal(f);
       sum += outer(-dot(d[c], normal) * normal, g);
     } else {
       return extension_.regression(c);
@@ -151,8 +151,7 @@ Tensor ReferenceMap::mean_of_known(const CellField<Tensor>& L, Index c) const {
   for (const Index f : mesh_.cell_faces[c]) {
     const Index n = beyond(mesh_, f, c);
     if (n >= 0 && filled_[n] >= alpha_known) sum += L[n], ++count;
-    if (extension_.symmetry().has(f, mesh_))
-      sum += image(L[c], mesh_.Sf[f] / norm(mesh_.Sf[f])), ++count;
+    if (extension_.symmetry().has(f, mesh_)) sum += image(L[c], mesh_.normal(f)), ++count;
   }
   return count > 0 ? (1.0 / count) * sum : L[c];
 }
@@ -202,7 +201,7 @@ Vec3 ReferenceMap::towards_volume(Index c, const FlowSnapshot& snapshot, Real dt
   // along its normal, d would grow without bound.
   for (const Index f : mesh_.cell_faces[c])
     if (has_one_side(f)) {
-      const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+      const Vec3 n = mesh_.normal(f);
       grad_J -= dot(grad_J, n) * n;
     }
   const Real courant = dt * courant_rate(snapshot.phi, mesh_, c);

@@ -118,7 +118,7 @@ SemiImplicitElasticity::Line SemiImplicitElasticity::line(const ElasticTerms& so
             .L_N = solid.L[N],
             .in_zone = zone_.has(P) || zone_.has(N)};
   }
-  const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]), d = to_image(mesh_, f);
+  const Vec3 n = mesh_.normal(f), d = to_image(mesh_, f);
   return {.f = f,
           .d = d,
           .g = norm2(mesh_.Sf[f]) / dot(mesh_.Sf[f], d),

@@ -186,7 +186,7 @@ void SurfaceTraction::take_own_strain(const Surface& surface, const Band& band) 
 
 template <class T>
 T SurfaceTraction::with_image(const T& of_owner, Index f) const {
-  return 0.5 * (of_owner + image(of_owner, mesh_.Sf[f] / norm(mesh_.Sf[f])));
+  return 0.5 * (of_owner + image(of_owner, mesh_.normal(f)));
 }
 
 template <class T>
@@ -207,7 +207,7 @@ SurfaceTraction::Pair SurfaceTraction::pair(Index f, const CellField<Vec3>& u) c
   const Index P = mesh_.owner[f];
   if (f < mesh_.n_internal)
     return {.du = u[mesh_.neighbour[f]] - u[P], .d = mesh_.d[f], .k = weights_.k[f]};
-  const Vec3 n = mesh_.Sf[f] / norm(mesh_.Sf[f]);
+  const Vec3 n = mesh_.normal(f);
   return {.du = -dot(u[P], n) * n, .d = dot(mesh_.d[f], n) * n, .k = {}};
 }
 

@@ -32,7 +32,7 @@ Tensor excess_of_work(const Tensor& L, const FlowSnapshot& snapshot, const CellF
     if (f >= mesh.n_internal) {
       const Index b = f - mesh.n_internal;
       if (extension.symmetry().has(f, mesh)) {  // the face to the image of the cell
-        const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+        const Vec3 n = mesh.normal(f);
         const Tensor image_of_L = image(snapshot.L[c], n);
         add(f, 0.5, fraction[P], (2 * dot(mesh.d[f], n)) * n,
             image(snapshot.u[P], n) - snapshot.u[P],

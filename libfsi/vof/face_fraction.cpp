@@ -179,7 +179,7 @@ void face_normal(FaceField<Vec3>& normal_f, const CellField<Vec3>& normal, const
     if (f < mesh.n_internal)
       normal_f[f] = mean(n + normal[mesh.neighbour[f]]);
     else
-      normal_f[f] = symmetry.has(f, mesh) ? mean(n + image(n, mesh.Sf[f] / norm(mesh.Sf[f]))) : n;
+      normal_f[f] = symmetry.has(f, mesh) ? mean(n + image(n, mesh.normal(f))) : n;
   }
 }
 

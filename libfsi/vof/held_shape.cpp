@@ -155,7 +155,7 @@ BondPlanes::BondPlanes(const Mesh& mesh, std::span<const Index> bonded, int ring
     if (ring[c] == 0 || nearer) n[c] = n_new, s[c] = s_new;
   };
   for (const Index f : bonded) {
-    const Vec3 out = mesh.Sf[f] / norm(mesh.Sf[f]);
+    const Vec3 out = mesh.normal(f);
     take(mesh.owner[f], out, dot(out, mesh.Cf[f]));
     ring[mesh.owner[f]] = 1;
   }

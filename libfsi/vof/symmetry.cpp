@@ -80,7 +80,7 @@ bool is_curved(const std::vector<char>& faces, const std::vector<Mirror>& planes
     for (Index f = patch.begin; f < patch.end; ++f) {
       if (faces[f - mesh.n_internal] != 0) continue;
       const auto beside = [&](Index p) { return points.contains(p); };
-      const Vec3 n = mesh.Sf[f] / norm(mesh.Sf[f]);
+      const Vec3 n = mesh.normal(f);
       const auto near = [&](const Mirror& plane) { return dot(plane.n, n) > cos_of_edge; };
       curved = curved || (std::ranges::any_of(mesh.face_points[f], beside) &&
                           std::ranges::any_of(planes, near));
@@ -97,7 +97,7 @@ CuttingPlanes cutting_planes(const std::function<Real(const Vec3&)>& distance, c
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f)
       if (sticks_out(distance, mesh, f, touching))
-        add(found, {{mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f])}, size_of(f, mesh)});
+        add(found, {{mesh.Cf[f], mesh.normal(f)}, size_of(f, mesh)});
   const std::vector<Mirror> planes = shared(found);
   const std::vector<char> none(static_cast<std::size_t>(mesh.n_boundary()), 0);
   if (planes.size() > most) return {.odd = true, .faces = none};
@@ -105,7 +105,7 @@ CuttingPlanes cutting_planes(const std::function<Real(const Vec3&)>& distance, c
   for (const Patch& patch : mirrors)
     for (Index f = patch.begin; f < patch.end; ++f)
       faces[f - mesh.n_internal] = std::ranges::any_of(planes, [&](const Mirror& plane) {
-        return lies_in(plane, mesh.Cf[f], mesh.Sf[f] / norm(mesh.Sf[f]), size_of(f, mesh));
+        return lies_in(plane, mesh.Cf[f], mesh.normal(f), size_of(f, mesh));
       });
   if (is_curved(faces, planes, mesh, mirrors)) return {.odd = true, .faces = none};
   if (!at_right_angles(planes)) return {.odd = true, .faces = faces};
