@@ -116,8 +116,9 @@ def last_values(data):
     out = data["volume_out"][-1] if "volume_out" in data else 0.0
     gone = out / (data["volume"][-1] + out) if out > 0 else 0.0
     cut = bool(gone > 0.005)
+    rates = [c for c in data if c.startswith("flow_rate_")] or ["flow_rate"]
     found = [f"{c} {data[c][-1]:.5g}" for c in
-             ("x", "y", "z", "angle", "taylor", "pressure_gradient", "flow_rate", "kinetic_energy",
+             ("x", "y", "z", "angle", "taylor", "pressure_gradient", *rates, "kinetic_energy",
               "elastic_energy") if c in data and data[c][-1] != 0 and not (cut and c in ("angle", "taylor"))]
     return found + [f"of what is left inside: {100 * gone:.3g} % has left"] * cut
 

@@ -115,7 +115,8 @@ std::vector<Finding> findings(const MeshFigures& figures, const MeshLimits& limi
   judge("volume ratio of neighbours", q.volume_ratio, limits.volume_ratio, "", slower_growth);
   judge("aspect ratio", q.aspect_ratio, limits.aspect_ratio, "", flatter_cells);
   const Gap& gap = figures.gap;
-  if (gap.cells > 0 && gap.cells < limits.gap)
+  constexpr Real rounding = 1e-6;  // of the count, which is a sum over edges
+  if (gap.cells > 0 && gap.cells < (1 - rounding) * limits.gap)
     found.push_back(
         {print("%.1f cells (at least %g wanted) across a passage of width %.4g from %s to %s at "
                "(%.4g, %.4g, %.4g)",

@@ -329,6 +329,8 @@ void describe(const Case& setup, const Mesh& mesh, Real length, Real velocity) {
         "%s: density ratio %.4g, viscosity ratio %.4g, %.1f cells (edges) through its thickness of "
         "%g",
         name.c_str(), rho / p.rho, s.solid.mu / p.mu_f, thickness / edges[i], thickness);
+    if (s.solid.G > 0 && thickness < well_resolved * edges[i])
+      std::printf(" (%g give its strain and elastic energy to about a tenth)", well_resolved);
     if (velocity != 0)
       std::printf(", Ca = mu_f U / (G L) = %.4g, G* = G / (rho U^2) = %.4g",
                   p.mu_f * velocity / (s.solid.G * length),

@@ -117,8 +117,9 @@ OfTime series(const std::string& file, Real period, const ColumnNames& value,
               const std::string& option) {
   const std::vector<std::vector<Real>> rows = read_rows(file, {{"t", "time"}, value}, option);
   for (std::size_t i = 1; i < rows.size(); ++i)
-    require(rows[i][0] > rows[i - 1][0],
-            "file \"" + file + "\": its times must grow from row to row");
+    require(rows[i][0] > rows[i - 1][0], "file \"" + file +
+                                             "\": its times must grow from row to row, but " +
+                                             print("%g follows %g", rows[i][0], rows[i - 1][0]));
   require(period == 0 || period >= rows.back()[0] - rows.front()[0],
           "file \"" + file +
               print("\" is longer than its period: its times go from %g to %g, the period is %g",

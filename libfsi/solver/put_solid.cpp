@@ -44,7 +44,7 @@ void require_place(const Body& body, const Solid& solid, const std::deque<Body>&
     throw Error(ErrorKind::input,
                 which + " is empty: its shape lies outside the mesh or is smaller than a cell" +
                     sizes + "; the mesh reaches " + text_of(extent(mesh)) +
-                    ": look whether both are in the same unit");
+                    ": look whether it lies within the fluid, and both are in the same unit");
   const Real touching = 1e-9 * std::pow(mesh.total_volume, 1.0 / mesh.dim);
   require(solid.trim || body.filled.clearance > -touching,
           which + " sticks out of the mesh, whose boundary reaches " +

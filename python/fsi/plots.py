@@ -130,10 +130,11 @@ def is_round(run, solid):
 
 def fits(panel, run, dim):
     """Whether a panel is useful for a run of this kind: a round solid has no axis, and between sliding
-    plates the net flow is zero."""
+    plates the net flow is zero. With a flow rate of each opening, that of one of them says less."""
     without_axis = all(is_round(run, solid) for solid in run.solids)
+    of_openings = any(column.startswith("flow_rate_") for column in run.tables.get("flow", {}))
     return not (panel.key == "angle" and without_axis or panel.key == "taylor" and dim == 3 or
-                panel.key == "rate" and run.summary.get("case") == "shear")
+                panel.key == "rate" and (of_openings or run.summary.get("case") == "shear"))
 
 
 def empty_gradient(run):

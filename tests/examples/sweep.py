@@ -163,6 +163,12 @@ def main():
                   for name in ("slow", "as it is")]
     check(velocities == [["0.5"], ["1"]], f"points with names, one with the case's value: {velocities}")
 
+    with open(named, "w", encoding="utf-8") as file:
+        file.write("name, lid_velocty\nmisspelt, 0.5\n")
+    wrong = subprocess.run(short, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    check(wrong.returncode == 1 and "misspelt: failed (2): unknown option -lid_velocty" in wrong.stdout,
+          f"a point that fails says why: {wrong.stdout}")
+
     pair = os.path.join(folder, "pair.yaml")
     with open(pair, "w", encoding="utf-8") as file:
         file.write("solids:\n" + "".join(

@@ -76,10 +76,11 @@ TEST(PutSolids, SizesByDefaultAreToldOfWhatDoesNotFit) {
   const Vec3 middle{0.5, 0.5, 0};
   EXPECT_EQ(sentence(middle, {}, {0.5, 0.6, 0}),
             "solid \"two\" overlaps solid \"one\" at the start: move one of them" + sizes);
-  EXPECT_EQ(
-      sentence({0.5, 0.5, 5}, {}, middle),
-      "solid \"one\" is empty: its shape lies outside the mesh or is smaller than a cell" + sizes +
-          "; the mesh reaches from (0, 0, 0) to (1, 1, 0): look whether both are in the same unit");
+  EXPECT_EQ(sentence({0.5, 0.5, 5}, {}, middle),
+            "solid \"one\" is empty: its shape lies outside the mesh or is smaller than a cell" +
+                sizes +
+                "; the mesh reaches from (0, 0, 0) to (1, 1, 0): look whether it lies within the "
+                "fluid, and both are in the same unit");
   EXPECT_EQ(sentence(middle, {}, {}), "two solids have the name \"one\"");
   EXPECT_EQ(sentence(middle, {.orthogonal_projection = true}, {}),
             "an orthogonal projection (-flow_projection) is for a fluid without solids");

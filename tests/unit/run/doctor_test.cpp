@@ -67,6 +67,8 @@ TEST(Findings, NameFigureLimitPlaceAndRemedy) {
   EXPECT_TRUE(findings(figures).empty());
   EXPECT_EQ(warning("a.msh", findings(figures)), "");
   figures.quality.aspect_ratio = {40, {1, 2, 3}, 7, CellType::tet};
+  figures.gap.cells = 6 * (1 - 1e-12);  // six, but for rounding
+  EXPECT_EQ(findings(figures).size(), 1u);
   figures.gap.cells = 2.5;
   const std::vector<Finding> found = findings(figures);
   ASSERT_EQ(found.size(), 2u);

@@ -53,7 +53,13 @@ TEST(Series, KnowsItsRangeBetweenTwoTimes) {
 TEST(Series, WhatIsNoTableIsRefused) {
   EXPECT_THROW(series("there is no such file.csv"), Error);
   EXPECT_THROW(series(File("0,1\n0.5\n").path), Error);
-  EXPECT_THROW(series(File("0,1\n0,2\n").path), Error);
+  try {
+    series(File("0,1\n3,2\n2,2\n").path);
+    ADD_FAILURE() << "times that fall";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("from row to row, but 2 follows 3"),
+              std::string::npos);
+  }
   EXPECT_THROW(series(File("time,value\n").path), Error);
   EXPECT_THROW(series(File("0,1\n2,2\n").path, 1), Error);
 }
