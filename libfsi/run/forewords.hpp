@@ -43,11 +43,12 @@ Real mean_edge(const shapes::Shape& shape, const Mesh& mesh);
 /// boundary faces b with faces[b] != 0 that it meets; 0 if the shape is symmetric about them.
 Real lean_at_planes(const shapes::Shape& shape, const std::vector<char>& faces, const Mesh& mesh);
 
-/// Of one rank: tells on standard error where the cells through a solid are few. through: their
-/// number, dim: dimensions of the mesh.
 /// Cells through the thickness of a solid that give its elastic energy to about a tenth. With 5 its
 /// way is right to a hundredth, but the energy may be twice too large (doc/howto/vessel.md).
 inline constexpr Real well_resolved = 16;
+
+/// Of one rank: tells on standard error where the cells through a solid are few. through: their
+/// number, dim: dimensions of the mesh.
 void tell_of_section(const std::string& name, const std::string& shape, int dim, Real through);
 
 /// Of one rank: tells on standard error where an elastic solid is much more viscous than the fluid.

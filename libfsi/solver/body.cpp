@@ -11,8 +11,8 @@ namespace fsi {
 namespace {
 
 /// A part of a solid's volume. So much of it may go through the boundary by rounding, as through
-/// planes of symmetry, or as wisps far ahead of the solid.
-constexpr Real rounding_out = 1e-9;
+/// planes of symmetry.
+constexpr Real rounding_out = 1e-12;
 
 /// [n_boundary] 1 on the faces of these patches, else 0.
 std::vector<char> on_faces(const std::vector<Patch>& patches, const Mesh& mesh) {
